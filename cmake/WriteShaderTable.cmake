@@ -1,0 +1,8 @@
+set(text "#include \"gl/shaders.h\"\n\nnamespace unshot::gl {\n\nconst std::vector<EmbeddedShader>& embeddedShaders() {\n  static const std::vector<EmbeddedShader> table = {\n")
+foreach(file IN LISTS FILES)
+  get_filename_component(name ${file} NAME)
+  file(READ ${file} source)
+  string(APPEND text "      {\"${name}\", R\"glsl(${source})glsl\"},\n")
+endforeach()
+string(APPEND text "  };\n  return table;\n}\n\n}  // namespace unshot::gl\n")
+file(WRITE ${OUTPUT} "${text}")

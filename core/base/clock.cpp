@@ -1,0 +1,28 @@
+#include "base/clock.h"
+
+#include <sys/resource.h>
+
+#include <ctime>
+
+namespace unshot {
+namespace {
+
+double seconds(clockid_t clock) {
+  timespec t{};
+  clock_gettime(clock, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+}  // namespace
+
+double wallSeconds() { return seconds(CLOCK_MONOTONIC); }
+
+double cpuSeconds() { return seconds(CLOCK_PROCESS_CPUTIME_ID); }
+
+std::size_t peakMemoryBytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace unshot

@@ -1,0 +1,11 @@
+// Linear RGB values.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+namespace unshot {
+
+/// Relative luminance of linear RGB (Rec. 709 primaries).
+inline double luminance(const glm::dvec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
+
+}  // namespace unshot

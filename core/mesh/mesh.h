@@ -1,0 +1,143 @@
+// The discretisation: surfaces with charts, their subdivision trees, elements and patches per side, display vertices.
+//
+// A surface is a connected set of coplanar polygons of one material. Its chart maps (u, v) in metres of the scene to
+// origin + u axis_u + v axis_v. Over the chart lies a grid of nu x nv cells, the leaves of a four-way tree of cell
+// rectangles; a cell is clipped by the surface's outline into convex pieces. An element is a cell, or several where clipped
+// cells would be slivers. A patch is an inner node of the tree: the source of light. Geometry is per surface; each side that
+// light can reach has its own elements and patches, numbered over the whole mesh.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "base/diagnostic.h"
+#include "scene/scene.h"
+
+namespace unshot {
+
+/// A range [first, first + count) of some array.
+struct Range {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+  std::uint32_t end() const { return first + count; }
+};
+
+struct Surface {
+  std::uint32_t material = 0;
+  glm::dvec3 origin{0.0}, axis_u{1, 0, 0}, axis_v{0, 1, 0}, normal{0, 0, 1};  ///< orthonormal, right-handed
+  glm::dvec2 extent{0.0};  ///< the chart covers [0, extent.x] x [0, extent.y]
+  double area = 0;         ///< [m^2], of one side
+  Range triangles;         ///< in Mesh::triangles: the polygons of the scene, counter-clockwise about `normal`
+  std::uint32_t nu = 1, nv = 1;  ///< cells along u and v
+  std::uint32_t first_cell = 0;  ///< in Mesh::cells; cell (i, j) is first_cell + j nu + i
+  std::uint32_t root = 0;        ///< in Mesh::nodes
+  Range elements;                ///< in Mesh::shapes: the surface's elements, whatever the side
+  Range patches;                 ///< in Mesh::patch_nodes
+  std::uint32_t side[2] = {kNone, kNone};  ///< front, back: in Mesh::sides; kNone where no light can reach
+
+  glm::dvec3 point(const glm::dvec2& uv) const { return origin + uv.x * axis_u + uv.y * axis_v; }
+};
+
+/// One side of a surface that light can reach.
+struct Side {
+  std::uint32_t surface = 0;
+  bool back = false;
+  glm::dvec3 normal{0.0};           ///< points away from this side
+  glm::dvec3 reflectance{0.0};      ///< rho
+  glm::dvec3 emission{0.0};         ///< E [W/m^2]
+  std::uint32_t first_element = 0;  ///< element of local shape k: first_element + k
+  std::uint32_t first_patch = 0;    ///< patch of local patch node k: first_patch + k
+};
+
+/// A triangle of the scene in its surface's chart.
+struct ChartTriangle {
+  glm::dvec2 uv[3];
+  std::uint32_t position[3];  ///< in Mesh::positions
+};
+
+/// A leaf of the tree: a grid cell clipped by the outline.
+struct Cell {
+  std::uint32_t element = kNone;  ///< local element (in the surface); kNone where the surface has no area here
+  Range pieces;                   ///< in Mesh::pieces
+};
+
+/// A convex polygon of a cell, counter-clockwise in the chart.
+struct Piece {
+  Range corners;  ///< in Mesh::piece_corners
+  double area = 0;
+};
+
+/// A node of a subdivision tree: the cells [u0, u1) x [v0, v1).
+struct Node {
+  std::uint32_t surface = 0;
+  std::uint32_t u0 = 0, v0 = 0, u1 = 1, v1 = 1;
+  std::uint32_t first_child = kNone;
+  std::uint32_t child_count = 0;
+  double area = 0;  ///< inside the outline
+  bool isCell() const { return u1 - u0 == 1 && v1 - v0 == 1; }
+};
+
+/// What both sides of an element share.
+struct ElementShape {
+  double area = 0;
+  glm::dvec3 centre{0.0};  ///< on the surface, inside the element
+  std::uint32_t patch = 0; ///< local patch of its surface
+};
+
+/// A display vertex of one side (shared across smooth neighbours of one material).
+struct Vertex {
+  glm::vec3 position{0.0f};
+  glm::vec3 normal{0.0f};
+  std::uint32_t material = 0;
+  std::uint32_t side = 0;  ///< in Mesh::sides: one of those that use it
+};
+
+/// Rows of weights into another array, compressed: row k is weights [start[k], start[k + 1]).
+struct SparseRows {
+  std::vector<std::uint32_t> start{0};
+  std::vector<std::uint32_t> index;
+  std::vector<float> weight;
+  std::size_t size() const { return start.size() - 1; }
+};
+
+struct Mesh {
+  // The scene it belongs to, as far as drawing and transport need it.
+  glm::dvec3 frame_origin{0.0};
+  glm::dvec3 bounds_min{0.0}, bounds_max{0.0};
+  std::vector<Material> materials;
+  std::vector<glm::dvec3> positions;  ///< welded
+
+  // Geometry, per surface.
+  std::vector<Surface> surfaces;
+  std::vector<ChartTriangle> triangles;
+  std::vector<Cell> cells;
+  std::vector<Piece> pieces;
+  std::vector<glm::dvec2> piece_corners;
+  std::vector<Node> nodes;
+  std::vector<std::uint32_t> patch_nodes;  ///< node of each local patch
+  std::vector<ElementShape> shapes;        ///< local elements
+
+  // Sides, and what is numbered over all of them.
+  std::vector<Side> sides;
+  std::uint32_t element_count = 0;
+  std::uint32_t patch_count = 0;
+  std::vector<std::uint32_t> element_side;   ///< one per element
+  std::vector<std::uint32_t> element_patch;  ///< one per element
+  std::vector<double> element_area;          ///< one per element [m^2]
+  std::vector<std::uint32_t> patch_side;     ///< one per patch
+  std::vector<double> patch_area;            ///< one per patch: the sum over its elements [m^2]
+
+  // Display: triangles of both sides, each wound counter-clockwise as seen from its side.
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> triangle_vertices;  ///< three per triangle
+  std::vector<std::uint32_t> triangle_element;   ///< one per triangle
+  SparseRows vertex_from_elements;               ///< interpolation: one row per vertex, weights sum to 1
+
+  double element_size = 0;  ///< edge of a full cell aimed at [m]
+  double lit_area = 0;      ///< over sides [m^2]
+  Diagnostics diagnostics;
+};
+
+}  // namespace unshot

@@ -1,0 +1,41 @@
+// The state of a solve at one moment, immutable once made: what is drawn, probed and exported.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace unshot {
+
+/// Figures of a solve at one moment.
+struct Measures {
+  double seconds = 0;          ///< wall time since the solve began
+  double cpu_seconds = 0;      ///< CPU time since meshing began
+  std::uint64_t shots = 0;     ///< columns used
+  std::uint64_t rows = 0;      ///< columns and rows computed (not taken from those kept)
+  double unshot_fraction = 1;  ///< sum A |U| / sum A E over patches and channels
+};
+
+/// One state of a solve. Fields are per display vertex of `mesh`; radiosity is B = E + rho (irradiance + ambient), with rho
+/// and E of the vertex's material and side (mesh->sides[vertex.side]).
+struct Snapshot {
+  std::shared_ptr<const Mesh> mesh;
+  std::vector<glm::vec3> irradiance;          ///< H [W/m^2], one per vertex
+  std::vector<glm::vec3> ambient;             ///< estimate of what unshot light will add to H; one per vertex
+  std::vector<glm::vec3> unshot;              ///< U [W/m^2] of the vertex's patch, one per vertex
+  std::vector<glm::vec3> element_irradiance;  ///< H [W/m^2], one per element
+  Measures measures;
+};
+
+/// B [W/m^2] at vertex v of the snapshot; with the ambient term where `with_ambient`.
+inline glm::dvec3 radiosity(const Snapshot& s, std::size_t v, bool with_ambient) {
+  const Side& side = s.mesh->sides[s.mesh->vertices[v].side];
+  glm::dvec3 h(s.irradiance[v]);
+  if (with_ambient) h += glm::dvec3(s.ambient[v]);
+  return side.emission + side.reflectance * h;
+}
+
+}  // namespace unshot
