@@ -1,0 +1,106 @@
+// One solve from scene to converged light, as a plain object that takes steps: no thread, no window.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+#include "session/snapshot.h"
+
+namespace unshot {
+
+namespace gl {
+class Context;
+}
+
+/// What the user asks of a solve. Keys are those of the tables (`unshot list`).
+struct SolveOptions {
+  std::string mode = "auto";
+  std::string form_factors = "auto";
+  std::optional<std::uint64_t> elements;  ///< over all lit sides; at most one of elements and element_size
+  std::optional<double> element_size;     ///< [m], edge of an element
+  bool emit_front_only = false;
+  double error = 0.01;  ///< stop when the unshot fraction of power is below this
+  std::optional<double> max_seconds;
+  std::optional<std::uint64_t> max_shots;
+  std::uint64_t seed = 1;
+  std::uint32_t hemicube_resolution = 0;              ///< pixels along the top face; 0: chosen
+  std::size_t kept_bytes = std::size_t{1} << 30;      ///< memory for kept columns of K [bytes]
+};
+
+/// Something the solve left out or chose by looking at the scene, with its reason (law 7).
+struct PlanDecision {
+  std::string what;
+  std::string why;
+  std::string saving;
+};
+
+/// Energy of a solve [W], summed over channels: emitted = absorbed + escaped + unshot (+ closure_defect).
+struct EnergyBalance {
+  double emitted = 0;         ///< sum A E
+  double absorbed = 0;        ///< sum A (1 - rho) H
+  double escaped = 0;         ///< shot, and met no surface
+  double unshot = 0;          ///< sum A U
+  double closure_defect = 0;  ///< shot, but lost or gained by approximate form factors
+  double residual() const { return emitted - absorbed - escaped - unshot - closure_defect; }
+};
+
+struct HistoryEntry {
+  Measures measures;
+};
+
+struct PhaseSeconds {
+  double load = 0, mesh = 0, plan = 0, solve = 0;  ///< wall time
+  double cpu_solve = 0;                            ///< CPU of mesh + plan + solve + estimates
+};
+
+enum class SolveState { kRunning, kConverged, kLimit, kInterrupted, kFailed };
+
+/// The solve. All calls come from one thread, on which the GL context (if any) is current.
+class Solve {
+ public:
+  /// `gl` is called at most once, only when the form-factor method needs GL; the context stays the caller's and outlives
+  /// the Solve. Meshes the scene and sets the method up. Throws Error (kUsage for unknown keys or impossible options).
+  Solve(Scene scene, SolveOptions options, std::function<gl::Context&()> gl);
+  ~Solve();
+  Solve(const Solve&) = delete;
+  Solve& operator=(const Solve&) = delete;
+
+  /// One step of the iteration mode (a shot, or a part of a sweep). Does nothing once state() is not kRunning.
+  /// A step takes milliseconds to a few tens of them, so that limits and interruption act soon.
+  void step();
+
+  SolveState state() const;
+  /// Ends the solve as interrupted; what was reached stays.
+  void interrupt();
+
+  /// A copy of the present state for display and export.
+  Snapshot snapshot() const;
+  const Measures& measures() const;
+  /// Fraction of the work done, from the unshot fraction on a log scale: 0 at the start, 1 converged.
+  double progress() const;
+
+  // For reports.
+  const Scene& scene() const;
+  const Mesh& mesh() const;
+  const std::string& modeKey() const;         ///< what `auto` became
+  const std::string& formFactorsKey() const;  ///< what `auto` became
+  const std::vector<PlanDecision>& plan() const;
+  const Diagnostics& diagnostics() const;  ///< of scene, mesh and solve
+  const std::vector<HistoryEntry>& history() const;
+  EnergyBalance energy() const;
+  const PhaseSeconds& seconds() const;
+  std::size_t keptBytes() const;  ///< memory held by kept columns
+  /// "error", "max_seconds", "max_shots", "interrupted", "no light", or what failed.
+  const std::string& stoppedBy() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace unshot
