@@ -24,7 +24,7 @@ struct GpuVertex {
 };
 
 float finiteValue(double v) {
-  return std::isnan(v) ? 0.0f : static_cast<float>(std::clamp(v, -kLargestValue, kLargestValue));
+  return std::isfinite(v) ? static_cast<float>(std::clamp(v, -kLargestValue, kLargestValue)) : 0.0f;
 }
 
 glm::vec3 finiteValue(const glm::dvec3& v) { return {finiteValue(v.x), finiteValue(v.y), finiteValue(v.z)}; }
