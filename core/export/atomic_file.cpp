@@ -85,10 +85,19 @@ class TemporaryFile {
   int descriptor_ = -1;
 };
 
+/// A device or a pipe: neither a file nor a folder.
+bool isSpecial(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
 /// What is to be replaced: the end of a chain of symbolic links. Throws where `path` cannot be a file.
 fs::path resolveTarget(const fs::path& path) {
   if (path.empty()) fail("''", "the name is empty", "a file name");
   std::error_code error;
+  // Links such as /dev/stdout lead to what has no path of its own.
+  if (isSpecial(path)) return path;
   fs::path target = path;
   for (int depth = 0; fs::is_symlink(fs::symlink_status(target, error)); ++depth) {
     if (depth == 40) failWith(path, ELOOP);
@@ -103,12 +112,6 @@ fs::path resolveTarget(const fs::path& path) {
   }
   if (!fs::is_directory(folder, error)) fail(path, folder.string() + " is not a folder", "another folder");
   return target;
-}
-
-bool isSpecial(const fs::path& target) {
-  std::error_code error;
-  const fs::file_status status = fs::status(target, error);
-  return fs::exists(status) && !fs::is_regular_file(status);
 }
 
 void writeAll(const FileDescriptor& file, std::string_view bytes, const fs::path& path) {
