@@ -3,9 +3,11 @@
 function(unshot_embed_shaders folder output)
   file(GLOB shader_files CONFIGURE_DEPENDS ${folder}/*.glsl ${folder}/*.vert ${folder}/*.frag ${folder}/*.comp
                                            ${folder}/*.geom)
+  list(SORT shader_files)
+  string(REPLACE ";" "|" shader_list "${shader_files}")
   add_custom_command(
     OUTPUT ${output}
-    COMMAND ${CMAKE_COMMAND} "-DFILES=${shader_files}" -DOUTPUT=${output}
+    COMMAND ${CMAKE_COMMAND} "-DFILES=${shader_list}" -DOUTPUT=${output}
             -P ${CMAKE_CURRENT_SOURCE_DIR}/cmake/WriteShaderTable.cmake
     DEPENDS ${shader_files} ${CMAKE_CURRENT_SOURCE_DIR}/cmake/WriteShaderTable.cmake
     COMMENT "Embedding shaders"

@@ -55,12 +55,19 @@ struct Side {
 struct ChartTriangle {
   glm::dvec2 uv[3];
   std::uint32_t position[3];  ///< in Mesh::positions
+  bool outline[3];            ///< whether the edge from corner k to k + 1 lies on the surface's outline
 };
 
 /// A leaf of the tree: a grid cell clipped by the outline.
 struct Cell {
   std::uint32_t element = kNone;  ///< local element (in the surface); kNone where the surface has no area here
   Range pieces;                   ///< in Mesh::pieces
+};
+
+/// A corner of a piece; `outline`: the edge to the next corner lies on the surface's outline.
+struct PieceCorner {
+  glm::dvec2 uv{0.0};
+  bool outline = false;
 };
 
 /// A convex polygon of a cell, counter-clockwise in the chart.
@@ -114,7 +121,7 @@ struct Mesh {
   std::vector<ChartTriangle> triangles;
   std::vector<Cell> cells;
   std::vector<Piece> pieces;
-  std::vector<glm::dvec2> piece_corners;
+  std::vector<PieceCorner> piece_corners;
   std::vector<Node> nodes;
   std::vector<std::uint32_t> patch_nodes;  ///< node of each local patch
   std::vector<ElementShape> shapes;        ///< local elements
