@@ -25,9 +25,11 @@ int main(int argc, char** argv) {
   } catch (const unshot::Error& error) {
     return report(error.fullText(), unshot::exitCodeOf(error.kind()));
   } catch (const std::bad_alloc&) {
-    return report("out of memory\n  try: a coarser mesh (--elements) or a smaller picture (--size)", unshot::kExitEnvironment);
+    return report("out of memory\n  try: a coarser mesh (--elements) or a smaller picture (--size)",
+                  unshot::kExitEnvironment);
   } catch (const std::exception& error) {
-    return report(std::string("internal error: ") + error.what() + "\n  try: please report it with the command and the scene",
+    return report(std::string("internal error: ") + error.what() +
+                      "\n  try: please report it with the command and the scene",
                   unshot::kExitInternal);
   }
 }

@@ -54,7 +54,8 @@ std::vector<std::string> argumentsOf(int argc, const char* const* argv) {
 
 /// "unshot solve --help lists the options", for the command that was being parsed.
 std::string adviceOf(const std::vector<std::string>& arguments) {
-  const std::string command = arguments.front() == "view" || !isCommand(arguments.front()) ? "" : " " + arguments.front();
+  const std::string command =
+      arguments.front() == "view" || !isCommand(arguments.front()) ? "" : " " + arguments.front();
   return "unshot" + command + " --help lists the options";
 }
 
@@ -65,12 +66,15 @@ std::string messageOf(const CLI::ParseError& error) {
   if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
     const std::string extra = text.substr(text.rfind(": ") + 2);
     const std::string first = extra.substr(0, extra.find(' '));
-    return first.starts_with('-') ? "there is no option '" + first + "'" : "'" + first + "' is one argument too many";
+    return first.starts_with('-') ? "there is no option '" + first + "'"
+                                  : "'" + first + "' is one argument too many";
   }
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
-    return text.find("At Most") != std::string::npos ? name + " may be given only once" : name + " needs a value";
+    return text.find("At Most") != std::string::npos ? name + " may be given only once"
+                                                     : name + " needs a value";
   }
-  if (dynamic_cast<const CLI::RequiredError*>(&error)) return text.substr(0, text.find(" is required")) + " is missing";
+  if (dynamic_cast<const CLI::RequiredError*>(&error))
+    return text.substr(0, text.find(" is required")) + " is missing";
   if (dynamic_cast<const CLI::RequiresError*>(&error)) {
     const std::size_t middle = text.find(" requires ");
     return text.substr(0, middle) + " needs " + text.substr(middle + 10) + " beside it";
@@ -90,7 +94,8 @@ bool isCommand(std::string_view word) {
 
 int runCommandLine(int argc, const char* const* argv) {
   std::vector<std::string> arguments = argumentsOf(argc, argv);
-  CLI::App app("Unshot: radiosity of OBJ scenes, with a measure of how wrong the picture still is.", "unshot");
+  CLI::App app("Unshot: radiosity of OBJ scenes, with a measure of how wrong the picture still is.",
+               "unshot");
   app.set_version_flag("--version", std::string("unshot ") + UNSHOT_VERSION, "Print the version and end");
   app.set_help_flag("-h,--help", "Print this help and end");
   app.get_formatter()->column_width(26);
@@ -109,7 +114,8 @@ int runCommandLine(int argc, const char* const* argv) {
   }
   const int code = run();
   std::cout.flush();
-  if (!std::cout) throw Error(ErrorKind::kEnvironment, "standard output cannot be written", {}, "check where it leads");
+  if (!std::cout)
+    throw Error(ErrorKind::kEnvironment, "standard output cannot be written", {}, "check where it leads");
   return code;
 }
 

@@ -5,7 +5,8 @@
 
 namespace unshot {
 
-/// Runs what the arguments ask for and returns the exit code. Throws Error (kUsage for what cannot be parsed).
+/// Runs what the arguments ask for and returns the exit code. Throws Error (kUsage for what cannot be
+/// parsed).
 int runCommandLine(int argc, const char* const* argv);
 
 /// Whether `word` is the name of a sub-command.

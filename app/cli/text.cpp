@@ -48,7 +48,8 @@ std::string durationText(double seconds) {
   if (seconds < 1) return formatted("%.3f s", seconds);
   if (seconds < 99.95) return formatted(seconds < 9.995 ? "%.2f s" : "%.1f s", seconds);
   const double minutes = std::floor(seconds / 60);
-  if (minutes < 60) return wholeText(minutes) + " min " + wholeText(std::floor(seconds - 60 * minutes)) + " s";
+  if (minutes < 60)
+    return wholeText(minutes) + " min " + wholeText(std::floor(seconds - 60 * minutes)) + " s";
   const double hours = std::floor(minutes / 60);
   return wholeText(hours) + " h " + wholeText(minutes - 60 * hours) + " min";
 }
@@ -70,7 +71,8 @@ std::string countedText(std::uint64_t count, const std::string& one, const std::
 void printLines(std::ostream& out, const Lines& lines) {
   std::size_t width = 0;
   for (const auto& line : lines) width = std::max(width, line.first.size());
-  for (const auto& [label, value] : lines) out << label << std::string(width - label.size() + 2, ' ') << value << "\n";
+  for (const auto& [label, value] : lines)
+    out << label << std::string(width - label.size() + 2, ' ') << value << "\n";
 }
 
 void printDiagnostics(std::ostream& out, const Diagnostics& diagnostics) {

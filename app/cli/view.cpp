@@ -12,8 +12,9 @@ void addViewCommand(CLI::App& app, Run& run) {
   command->add_option("scene", *scene, "The scene")->type_name("")->option_text("[SCENE.obj]");
   command->callback([scene, &run] {
     run = [scene]() -> int {
-      throw Error(ErrorKind::kEnvironment, "this version has no viewer", {},
-                  "unshot solve " + (scene->empty() ? std::string("SCENE.obj") : *scene) + " --png picture.png");
+      throw Error(
+          ErrorKind::kEnvironment, "this version has no viewer", {},
+          "unshot solve " + (scene->empty() ? std::string("SCENE.obj") : *scene) + " --png picture.png");
     };
   });
 }
