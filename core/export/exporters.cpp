@@ -19,7 +19,7 @@ void writeHdrPicture(const ExportSource& source, const std::filesystem::path& pa
 }
 
 void writePly(const ExportSource& source, const std::filesystem::path& path) {
-  writeWholeFile(path, plyBytes(source.snapshot, source.with_ambient));
+  writeWholeFile(path, plyBytes(source.snapshot, source.with_ambient, source.exposure));
 }
 
 void writeProbes(const ExportSource& source, const std::filesystem::path& path) {

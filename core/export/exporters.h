@@ -20,6 +20,7 @@ namespace unshot {
 struct ExportSource {
   const Snapshot& snapshot;
   bool with_ambient = false;
+  double exposure = 1;                  ///< the factor that makes radiosity 0..1 for 8-bit colours of vertices
   std::function<Image8()> picture;      ///< as displayed
   std::function<ImageF()> radiance;     ///< linear B [W/m^2] at the same pixels
   std::function<std::string()> report;  ///< JSON

@@ -1,12 +1,9 @@
 #include "export/ply.h"
 
-#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <type_traits>
 
-#include "base/colour.h"
-#include "base/error.h"
 #include "base/srgb.h"
 
 namespace unshot {
@@ -40,22 +37,8 @@ std::string headerOf(const Mesh& mesh) {
 
 }  // namespace
 
-double plyExposure(const Snapshot& snapshot, bool with_ambient) {
+std::string plyBytes(const Snapshot& snapshot, bool with_ambient, double exposure) {
   const Mesh& mesh = *snapshot.mesh;
-  std::vector<double> values;
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (luminance(mesh.sides[mesh.vertices[v].side].emission) > 0) continue;
-    values.push_back(luminance(radiosity(snapshot, v, with_ambient)));
-  }
-  if (values.empty()) return 1;
-  const auto bright = values.begin() + static_cast<std::ptrdiff_t>(9 * (values.size() - 1) / 10);
-  std::nth_element(values.begin(), bright, values.end());
-  return *bright > 0 ? 0.8 / *bright : 1;
-}
-
-std::string plyBytes(const Snapshot& snapshot, bool with_ambient) {
-  const Mesh& mesh = *snapshot.mesh;
-  const double exposure = plyExposure(snapshot, with_ambient);
   std::string bytes = headerOf(mesh);
   bytes.reserve(bytes.size() + 39 * mesh.vertices.size() + 13 * (mesh.triangle_vertices.size() / 3));
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {

@@ -10,15 +10,10 @@
 
 namespace unshot {
 
-/// The bytes of a PLY file. Per vertex: x y z (file coordinates) nx ny nz radiosity_r radiosity_g radiosity_b
-/// (float, linear, E included) and red green blue (8 bits, sRGB, at an automatic exposure: see plyExposure);
-/// triangles, wound counter-clockwise as seen from the side they belong to. Vertices are doubled where values
-/// jump.
-std::string plyBytes(const Snapshot& snapshot, bool with_ambient);
-
-/// The factor that the 8-bit colours are made with: it takes the 90th percentile of the luminance of vertices
-/// that do not emit to 0.8 (1 where there is nothing to see).
-double plyExposure(const Snapshot& snapshot, bool with_ambient);
+/// The bytes of a PLY file. Per vertex: x y z (file coordinates) nx ny nz radiosity_r radiosity_g radiosity_b (float,
+/// linear, E included) and red green blue (8 bits, sRGB; `exposure` is the factor that makes radiosity 0..1); triangles,
+/// wound counter-clockwise as seen from the side they belong to. Vertices are doubled where values jump.
+std::string plyBytes(const Snapshot& snapshot, bool with_ambient, double exposure);
 
 /// What compare needs of a PLY file.
 struct PlySolution {
