@@ -35,15 +35,22 @@ void makeSides(const Scene& scene, const MeshOptions& options, Mesh& mesh) {
   }
   const PointTree tree(used);
   const double margin = 2 * weldDistance(scene);
+  const auto seesSomething = [&](const Surface& surface, bool back) {
+    const glm::dvec3 normal = back ? -surface.normal : surface.normal;
+    return tree.anyInFront(normal, glm::dot(normal, surface.origin) + margin);
+  };
+  // A flat sheet sees nothing at all; it is kept whole, so that it can be shown.
+  const bool keep_all = std::none_of(mesh.surfaces.begin(), mesh.surfaces.end(), [&](const Surface& s) {
+    return seesSomething(s, false) || seesSomething(s, true);
+  });
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
     Surface& surface = mesh.surfaces[s];
     for (int back = 0; back < 2; ++back) {
-      const glm::dvec3 normal = back ? -surface.normal : surface.normal;
-      if (!tree.anyInFront(normal, glm::dot(normal, surface.origin) + margin)) continue;
+      if (!keep_all && !seesSomething(surface, back)) continue;
       Side side;
       side.surface = s;
       side.back = back;
-      side.normal = normal;
+      side.normal = back ? -surface.normal : surface.normal;
       side.reflectance = scene.materials[surface.material].reflectance;
       if (!back || !options.emit_front_only) side.emission = scene.materials[surface.material].emission;
       surface.side[back] = static_cast<std::uint32_t>(mesh.sides.size());

@@ -1,12 +1,12 @@
 // Ear clipping of one outline, best-shaped ear first.
 //
-// Source: G. H. Meisters, "Polygons have ears", 1975; D. Eberly, "Triangulation by ear clipping", 2002: only corners that
-// are not convex can lie in an ear, and clipping an ear changes the state of its two neighbours alone, which makes the
-// whole O(n r) for r such corners. Differences here: a corner within `tolerance` of the line through its neighbours is
-// flat: it is never the tip of an ear and blocks like a reflex one, so that T-vertices stay corners of triangles with an
-// area.
-// Assumes an outline that touches itself at most (bridges to holes are fine). Others end too, with fewer or overlapping
-// triangles. Known error: features thinner than 1e-11 of the outline's extent count as flat.
+// Source: G. H. Meisters, "Polygons have ears", 1975; D. Eberly, "Triangulation by ear clipping", 2002: only
+// corners that are not convex can lie in an ear, and clipping an ear changes the state of its two neighbours
+// alone, which makes the whole O(n r) for r such corners. Differences here: a corner within `tolerance` of
+// the line through its neighbours is flat: it is never the tip of an ear and blocks like a reflex one, so
+// that T-vertices stay corners of triangles with an area. Assumes an outline that touches itself at most
+// (bridges to holes are fine). Others end too, with fewer or overlapping triangles. Known error: features
+// thinner than 1e-11 of the outline's extent count as flat.
 #include "scene/triangulate.h"
 
 #include <algorithm>
@@ -19,10 +19,12 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Rounding of a chart's coordinates is about 1e-16 of its extent; five digits are left for how they came about.
+/// Rounding of a chart's coordinates is about 1e-16 of its extent; five digits are left for how they came
+/// about.
 constexpr double kFlatness = 1e-11;
 
-/// How often all ears are looked at again when none is left: simple outlines need this never, rounding rarely.
+/// How often all ears are looked at again when none is left: simple outlines need this never, rounding
+/// rarely.
 constexpr int kRescans = 8;
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
@@ -121,13 +123,15 @@ class EarClipper {
   bool isEar(std::uint32_t b, bool border_allowed) const {
     if (!(height_[b] > tolerance_)) return false;
     const glm::dvec2 &pa = at(prev_[b]), &pb = at(b), &pc = at(next_[b]);
-    const glm::dvec2 low{std::min({pa.x, pb.x, pc.x}) - tolerance_, std::min({pa.y, pb.y, pc.y}) - tolerance_};
-    const glm::dvec2 high{std::max({pa.x, pb.x, pc.x}) + tolerance_, std::max({pa.y, pb.y, pc.y}) + tolerance_};
+    const glm::dvec2 low{std::min({pa.x, pb.x, pc.x}) - tolerance_,
+                         std::min({pa.y, pb.y, pc.y}) - tolerance_};
+    const glm::dvec2 high{std::max({pa.x, pb.x, pc.x}) + tolerance_,
+                          std::max({pa.y, pb.y, pc.y}) + tolerance_};
     for (std::uint32_t q = next_[next_[b]]; q != prev_[b]; q = next_[q]) {
       const glm::dvec2& p = at(q);
       if (p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y) continue;
-      // A convex corner in the ear implies another that is not; one that coincides with a corner of the ear has to be
-      // looked at all the same.
+      // A convex corner in the ear implies another that is not; one that coincides with a corner of the ear
+      // has to be looked at all the same.
       const bool convex = height_[q] > tolerance_;
       if (convex && !coincide(q, pa) && !coincide(q, pb) && !coincide(q, pc)) continue;
       if (blocks(q, b, border_allowed)) return false;
@@ -169,8 +173,8 @@ class EarClipper {
     return best;
   }
 
-  /// For outlines that are not simple: the best convex corner whose triangle has no corner strictly inside (`checked`), or
-  /// simply the best.
+  /// For outlines that are not simple: the best convex corner whose triangle has no corner strictly inside
+  /// (`checked`), or simply the best.
   std::optional<std::uint32_t> bestForcedTip(bool checked) const {
     std::optional<std::uint32_t> best;
     double best_quality = 0.0;
