@@ -3,7 +3,8 @@
 // A picture is taken from one point, as if all of the patch's light left there. Its error grows with the patch's size over
 // the distance to what it sees, so a patch is split, node by node of its tree and below, while a stated share of its view is
 // nearer than a stated multiple of its size, down to a floor: next to an edge that two surfaces share no refinement of a
-// single sample helps. Emitters are split further, since everything sees their shadows. Each picture is turned about the
+// single sample helps. Emitters are split further, while a part holds a fair share of all emitted power, since everything sees
+// the edges of its shadow. Each picture is turned about the
 // normal by its own angle, so that the pixels' grid leaves no pattern.
 //
 // Known error: an element smaller than a pixel gets nothing from one picture and too much from another; what is left next to
@@ -23,12 +24,15 @@ namespace unshot {
 namespace {
 
 // A region is split while more than kNearShare of its view is nearer than its size / fraction.
-constexpr double kNearShare = 0.01;
-constexpr double kSplitFraction = 0.5;
-constexpr double kEmitterSplitFraction = 0.125;
+static double kNearShare = getenv("NS")?atof(getenv("NS")):0.01;
+static double kSplitFraction = getenv("SF")?atof(getenv("SF")):0.5;
+static double kEmitterSplitFraction = getenv("EF")?atof(getenv("EF")):0.125;
+// A region with more than this share of the power that a channel emits counts as an emitter here: there are at most a few
+// hundred such regions, whatever the scene.
+constexpr double kEmitterShare = 1.0 / 256;
 // A region may be split this many times below its patch, and at least once below the cells.
-constexpr int kSplits = 3;
-constexpr std::uint32_t kResolution = 128;
+static int kSplits = getenv("SP")?atoi(getenv("SP")):3;
+static std::uint32_t kResolution = getenv("RS")?atoi(getenv("RS")):128;
 constexpr std::uint32_t kEmitterResolution = 256;
 
 // What the pixel loop needs of a surface, together in memory.
@@ -47,6 +51,9 @@ class Hemicube final : public FormFactorMethod {
         if (s.side[back] != kNone) lookup.first_element[back] = mesh_.sides[s.side[back]].first_element;
       }
       lookups_.push_back(lookup);
+    }
+    for (std::uint32_t q = 0; q < mesh_.patch_count; ++q) {
+      emitted_ += mesh_.patch_area[q] * mesh_.sides[mesh_.patch_side[q]].emission;
     }
     fillCells();
     received_.assign(mesh_.element_count, 0.0);
@@ -192,9 +199,16 @@ class Hemicube final : public FormFactorMethod {
     return frame;
   }
 
+  bool emitsMuch(const Region& region, const Side& side) const {
+    for (int c = 0; c < 3; ++c) {
+      if (region.area * side.emission[c] > kEmitterShare * emitted_[c]) return true;
+    }
+    return false;
+  }
+
   // Shoots from the region or, where its view is too near for one point, from its parts. Adds share = area * per_area in all.
   void shoot(const Region& region, const Side& side, int splits, double per_area) {
-    const bool emits = side.emission != glm::dvec3(0.0);
+    const bool emits = emitsMuch(region, side);
     HemicubeLayout layout{resolution_ != 0 ? resolution_ : (emits ? kEmitterResolution : kResolution)};
     const std::vector<double>& delta = deltas(layout);
     const HemicubePicture::Result seen = picture_.draw(frameOf(region, side), layout);
@@ -232,6 +246,7 @@ class Hemicube final : public FormFactorMethod {
   HemicubePicture picture_;
   std::uint64_t seed_;
   std::uint32_t resolution_;
+  glm::dvec3 emitted_{0.0};  // power of all patches, per channel [W]
   std::vector<SurfaceLookup> lookups_;
   std::vector<std::uint32_t> cell_element_;
   std::vector<std::pair<std::uint32_t, std::vector<double>>> deltas_;
