@@ -19,12 +19,13 @@
 #include "formfactor/hemicube_picture.h"
 #include "formfactor/methods.h"
 #include "formfactor/regions.h"
+#include "mesh/grid.h"
 
 namespace unshot {
 namespace {
 
 // A region is split while more than kNearShare of its view is nearer than its size / fraction.
-static double kNearShare = getenv("NS")?atof(getenv("NS")):0.01;
+static double kNearShare = getenv("NS")?atof(getenv("NS")):0.02;
 static double kSplitFraction = getenv("SF")?atof(getenv("SF")):0.5;
 static double kEmitterSplitFraction = getenv("EF")?atof(getenv("EF")):0.125;
 // A region with more than this share of the power that a channel emits counts as an emitter here: there are at most a few
@@ -65,10 +66,10 @@ class Hemicube final : public FormFactorMethod {
   Column column(std::uint32_t q) override {
     const std::uint32_t side_index = mesh_.patch_side[q];
     const Side& side = mesh_.sides[side_index];
-    const std::uint32_t node = mesh_.patch_nodes[mesh_.surfaces[side.surface].patches.first + q - side.first_patch];
     begin();
-    const Region whole = regionOfNode(mesh_, node);
-    const std::uint32_t cells = std::max(mesh_.nodes[node].u1 - mesh_.nodes[node].u0, mesh_.nodes[node].v1 - mesh_.nodes[node].v0);
+    const Region whole = regionOfPatch(mesh_, side.surface, q - side.first_patch);
+    const Node& node = mesh_.nodes[whole.node];
+    const std::uint32_t cells = std::max(node.u1 - node.u0, node.v1 - node.v0);
     const int splits = std::max(kSplits, static_cast<int>(std::ceil(std::log2(cells))) + 1);
     shoot(whole, side, splits, 1 / whole.area);
     Column out;
@@ -83,14 +84,13 @@ class Hemicube final : public FormFactorMethod {
 
   Row row(std::uint32_t v) override {
     const Side& side = mesh_.sides[mesh_.element_side[v]];
-    const Surface& surface = mesh_.surfaces[side.surface];
-    const double area = mesh_.element_area[v];
     begin();
-    for (std::uint32_t c = surface.first_cell; c < surface.first_cell + surface.nu * surface.nv; ++c) {
-      if (mesh_.cells[c].pieces.count == 0 || side.first_element + mesh_.cells[c].element != v) continue;
-      const Region whole = regionOfNode(mesh_, cellNode(surface, c - surface.first_cell));
-      shoot(whole, side, 1, 1 / area);
-    }
+    const ElementShape& shape = mesh_.shapes[mesh_.surfaces[side.surface].elements.first + v - side.first_element];
+    Region point;
+    point.surface = side.surface;
+    point.area = mesh_.element_area[v];
+    point.sample = mesh_.surfaces[side.surface].chart(shape.centre);
+    shoot(point, side, 0, 1 / point.area);
     std::vector<double> per_patch(mesh_.patch_count, 0.0);
     takeReceived([&](std::uint32_t e, double f) { per_patch[mesh_.element_patch[e]] += f; });
     Row out;
@@ -107,7 +107,7 @@ class Hemicube final : public FormFactorMethod {
 
  private:
   // Cells without area border on the outline; rounding can put a pixel there, which then belongs to the nearest cell that
-  // has an element.
+  // has an element. Cells cut by contacts hold several elements; their pixels ask the pieces.
   void fillCells() {
     cell_element_.resize(mesh_.cells.size());
     for (std::size_t c = 0; c < mesh_.cells.size(); ++c) cell_element_[c] = mesh_.cells[c].element;
@@ -121,7 +121,8 @@ class Hemicube final : public FormFactorMethod {
         const std::uint32_t c = border[k], i = c % s.nu, j = c / s.nu;
         const auto spread = [&](bool possible, std::uint32_t other) {
           if (!possible || cell_element_[s.first_cell + other] != kNone) return;
-          cell_element_[s.first_cell + other] = cell_element_[s.first_cell + c];
+          const std::uint32_t own = cell_element_[s.first_cell + c];
+          cell_element_[s.first_cell + other] = own != kMixed ? own : mesh_.pieces[mesh_.cells[s.first_cell + c].pieces.first].element;
           border.push_back(other);
         };
         spread(i > 0, c - 1);
@@ -130,19 +131,6 @@ class Hemicube final : public FormFactorMethod {
         spread(j + 1 < s.nv, c + s.nu);
       }
     }
-  }
-
-  std::uint32_t cellNode(const Surface& surface, std::uint32_t cell) const {
-    const std::uint32_t i = cell % surface.nu, j = cell / surface.nu;
-    std::uint32_t node = surface.root;
-    while (!mesh_.nodes[node].isCell()) {
-      const Node& parent = mesh_.nodes[node];
-      for (std::uint32_t k = 0; k < parent.child_count; ++k) {
-        const Node& child = mesh_.nodes[parent.first_child + k];
-        if (i >= child.u0 && i < child.u1 && j >= child.v0 && j < child.v1) node = parent.first_child + k;
-      }
-    }
-    return node;
   }
 
   void begin() {
@@ -236,7 +224,13 @@ class Hemicube final : public FormFactorMethod {
       const std::uint32_t first = s.first_element[item.surface_side & 1];
       if (first == kNone) continue;  // an unlit side cannot be seen; if rounding says so, the column's defect tells
       const std::uint32_t i = (item.chart & 0xffffu) * s.nu >> 16, j = (item.chart >> 16) * s.nv >> 16;
-      const std::uint32_t e = first + cell_element_[s.first_cell + j * s.nu + i];
+      std::uint32_t local = cell_element_[s.first_cell + j * s.nu + i];
+      if (local == kMixed) {
+        const Surface& surface = mesh_.surfaces[item.surface_side >> 1];
+        const glm::dvec2 unit((item.chart & 0xffffu) + 0.5, (item.chart >> 16) + 0.5);
+        local = elementAt(mesh_, surface, unit / 65536.0 * surface.extent);
+      }
+      const std::uint32_t e = first + local;
       if (received_[e] == 0) touched_.push_back(e);
       received_[e] += share * delta[k];
     }
