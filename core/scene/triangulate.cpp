@@ -23,6 +23,10 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// about.
 constexpr double kFlatness = 1e-11;
 
+/// A later candidate has to be better by this factor: neither rounding nor the slight warp of a face that is
+/// not quite planar decides, and near-ties are cut from the first corner on, as most programs do.
+constexpr double kClearlyBetter = 1 + 1e-3;
+
 /// How often all ears are looked at again when none is left: simple outlines need this never, rounding
 /// rarely.
 constexpr int kRescans = 8;
@@ -164,7 +168,7 @@ class EarClipper {
     double best_quality = 0.0;
     std::uint32_t i = first_;
     do {
-      if (quality_[i] > best_quality) {
+      if (quality_[i] > best_quality * kClearlyBetter) {
         best_quality = quality_[i];
         best = i;
       }
@@ -239,8 +243,7 @@ std::vector<Triangle> splitQuad(std::span<const glm::dvec2> outline) {
   };
   const double even_quality = worst(even), odd_quality = worst(odd);
   if (!(even_quality > 0) && !(odd_quality > 0)) return {};
-  // Rounding must not decide about rectangles.
-  const auto& best = odd_quality > even_quality * (1 + 1e-9) ? odd : even;
+  const auto& best = odd_quality > even_quality * kClearlyBetter ? odd : even;
   return {best.begin(), best.end()};
 }
 
