@@ -41,7 +41,7 @@ TEST_F(ObjReader, TakesNameAndPathFromTheFile) {
 }
 
 TEST_F(ObjReader, CentresTheFrameOnTheVerticesInUse) {
-  const Scene scene = read("v 900 900 900\nv 10 0 0\nv 12 0 0\nv 12 4 6\nf 1 3 4\n");
+  const Scene scene = read("v 900 900 900\nv 10 0 0\nv 12 0 0\nv 12 4 6\nf 2 3 4\n");
   expectNear(scene.frame_origin, {11, 2, 3});
   expectNear(scene.bounds_min, {-1, -2, -3});
   expectNear(scene.bounds_max, {1, 2, 3});
@@ -153,7 +153,7 @@ TEST_F(ObjReader, LeavesOutNormalsWithoutADirection) {
 
 TEST_F(ObjReader, ReadsSmoothingGroups) {
   const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
-  const Scene scene = read(points + "f 1 2 3\ns 7\nf 1 2 4\ns off\nf 1 3 4\ns 4294967295\nf 1 3 4\n");
+  const Scene scene = read(points + "f 1 2 3\ns 7\nf 1 2 4\ns off\nf 1 3 4\ns 4294967295\nf 2 3 4\n");
   ASSERT_EQ(scene.polygons.size(), 4u);
   EXPECT_TRUE(scene.smoothing_given);
   EXPECT_EQ(scene.polygons[0].smoothing_group, 0u);
