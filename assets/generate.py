@@ -13,13 +13,14 @@ import tempfile
 
 sys.dont_write_bytecode = True
 
-from generator import check, small_scenes  # noqa: E402
+from generator import check, small_scenes, two_rooms  # noqa: E402
 
 # Scene, whether it is closed (no light escapes), least number of polygons.
 SCENES = [
     (small_scenes.cornell_box, False, 0),
     (small_scenes.two_patches, False, 2),
     (small_scenes.furnace, True, 6),
+    (two_rooms.two_rooms, True, 100),
 ]
 
 
