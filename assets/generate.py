@@ -13,7 +13,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 
-from generator import check, small_scenes, two_rooms  # noqa: E402
+from generator import check, library, small_scenes, two_rooms  # noqa: E402
 
 # Scene, whether it is closed (no light escapes), least number of polygons.
 SCENES = [
@@ -21,6 +21,7 @@ SCENES = [
     (small_scenes.two_patches, False, 2),
     (small_scenes.furnace, True, 6),
     (two_rooms.two_rooms, True, 100),
+    (library.library, True, 500),
 ]
 
 

@@ -72,6 +72,10 @@ class Face:
         return ears
 
 
+def area_of(flat):
+    return sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(flat, flat[1:] + flat[:1])) / 2
+
+
 def turn(a, b, c):
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
@@ -121,7 +125,7 @@ def area_of_overlap(p, q):
         polygon = clipped
         if len(polygon) < 3:
             return 0.0
-    return sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(polygon, polygon[1:] + polygon[:1])) / 2
+    return area_of(polygon)
 
 
 class Boxes:
@@ -249,7 +253,8 @@ def check_shapes(faces, eps):
                 (a, b), (c, d) = edges[i], edges[j]
                 if turn(a, b, c) * turn(a, b, d) < 0 and turn(c, d, a) * turn(c, d, b) < 0:
                     problems.append(f"{face} crosses itself")
-        if face.triangles() is None:
+        ears = face.triangles()
+        if ears is None or abs(sum(turn(*(flat[k] for k in ear)) for ear in ears) / 2 - abs(area_of(flat))) > 1e-9 * face.area:
             problems.append(f"{face} cannot be cut into triangles")
     return problems
 

@@ -1,5 +1,5 @@
 """Pieces that more than one scene, or one scene more than once, is furnished with. Lengths in metres."""
-from math import cos, pi, sin
+from math import acos, cos, pi, sin
 
 from .model import FACES
 
@@ -111,7 +111,6 @@ def picture(f, width, height, frame_material, canvas, board=.06, depth=.04):
 
 def sphere_bands(radius, centre, foot_radius, material, smoothing, rings=8, top_radius=0):
     """Bands of a lathe that continue a stem of `foot_radius` into a sphere; top_radius 0 closes it at the pole."""
-    from math import acos
     start = acos(foot_radius / radius)  # the stem enters the sphere at this angle below its middle
     end = acos(top_radius / radius) if top_radius else pi / 2
     bands = []
@@ -138,3 +137,57 @@ def books(f, width, depth, rows, choose, materials, sizes=((.20, .15), (.23, .17
             x = end
             if width - x <= 1e-6:
                 break
+
+
+class Chooser:
+    """Choices that look like chance and are the same on every machine: chooser(n) gives a number below n."""
+
+    def __init__(self, seed):
+        self.state = seed
+
+    def __call__(self, n):
+        self.state = (self.state * 6364136223846793005 + 1442695040888963407) % 2 ** 64
+        return (self.state >> 33) % n
+
+
+def sofa(f, width, cloth, foot, seats=2):
+    """Stands on local y = 0 with its back along z = 0, centred in x; one sits looking along +z. One seat: an armchair."""
+    half, depth, arm = width / 2, .85, .18
+    for x in (-half + .04, half - .10):
+        for z in (.06, depth - .12):
+            f.solid((x, 0, z), (x + .06, .10, z + .06), foot)
+    f.solid((-half, .10, 0), (half, .38, depth), cloth)
+    f.solid((-half, .38, 0), (half, .84, .22), cloth)
+    for x in (-half, half - arm):
+        f.solid((x, .38, .22), (x + arm, .60, depth), cloth)
+    seat = (width - 2 * arm - .02 * (seats - 1)) / seats
+    for k in range(seats):
+        x = -half + arm + k * (seat + .02)
+        f.solid((x, .38, .22), (x + seat, .48, depth - .02), cloth)
+
+
+AMPHORA = ((.30, .06), (.95, .42), (1.0, .55), (.80, .72), (.36, .84), (.34, .92), (.50, 1.0))
+URN = ((.35, .05), (.22, .12), (.85, .40), (1.0, .62), (.95, .75), (.70, .82), (.85, 1.0))
+BUST = ((.55, .03), (.35, .10), (.62, .22), (.98, .40), (1.0, .48), (.42, .58), (.40, .64), (.62, .74), (.66, .84),
+        (.50, .94), (.25, 1.0))
+
+
+def turned(m, x, y, z, radius, height, shape, material, sides=12):
+    """A turned body on a square foot: a vase, an urn, something like a bust. `shape`: (radius, height) as fractions."""
+    foot = .02
+    first = shape[0][0] * radius
+    m.solid((x - first * 1.25, y, z - first * 1.25), (x + first * 1.25, y + foot, z + first * 1.25), material, top="omit")
+    m.square_around_circle(x, y + foot, z, first * 1.25, first, True, material, sides)
+    bands = [(r * radius, y + foot + h * (height - foot), material, 7) for r, h in shape]
+    m.lathe(x, z, (first, y + foot), bands + [(0, y + height, material, 0)], sides)
+
+
+def lamp(m, x, y, z, stem_height, shade, stem_material, shade_material, sides=12):
+    """A lamp with a glowing shade; `shade` is (lower radius, upper radius, height). For a table or, tall, for the floor."""
+    foot, stem = (.07, .012) if stem_height < .6 else (.14, .016)
+    low, high, tall = shade
+    m.solid((x - foot, y, z - foot), (x + foot, y + .02, z + foot), stem_material, top="omit")
+    m.square_around_circle(x, y + .02, z, foot, stem, True, stem_material, sides)
+    top = y + stem_height
+    m.lathe(x, z, (stem, y + .02), [(stem, top, stem_material, 8), (low, top, shade_material, 0),
+                                    (high, top + tall, shade_material, 9), (0, top + tall, shade_material, 0)], sides)
