@@ -164,12 +164,12 @@ class Boxes:
         return found
 
 
-def first_hit(tree, origin, direction, start):
+def first_hit(tree, origin, direction, start, own):
     inverse = tuple(1 / v if abs(v) > 1e-300 else 1e300 for v in direction)
     best, hit = 1e300, None
     for face, (a, b, c) in tree.along_ray(origin, inverse, 1e300, []):
         slope = dot(direction, face.normal)
-        if abs(slope) < 1e-12:
+        if face is own or abs(slope) < 1e-12:
             continue
         t = (face.offset - dot(origin, face.normal)) / slope
         if start < t < best:
@@ -344,7 +344,7 @@ def check_sides(faces, triangles, closed, eps):
             while not 0.01 < dot(direction, direction) < 1 or dot(direction, face.normal) < 0.1 * norm(direction):
                 direction = tuple(2 * random() - 1 for _ in range(3))
             rays += 1
-            _, hit = first_hit(tree, origin, direction, eps)
+            _, hit = first_hit(tree, origin, direction, eps / 1e4, face)
             if hit is None:
                 escaped += 1
             elif dot(hit.normal, direction) > 0:

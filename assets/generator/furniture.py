@@ -129,7 +129,7 @@ def books(f, width, depth, rows, choose, materials, sizes=((.20, .15), (.23, .17
     while width - x > 1e-6:
         volumes = 1 if choose(3) else 2 + choose(3)  # single books, and sets in one colour
         height, thick = usable[choose(len(usable))]
-        spine = .03 + .01 * choose(5)
+        spine = .04 + .01 * choose(5)
         material = materials[choose(len(materials))]
         for _ in range(volumes):
             end = x + spine if width - x - spine >= .03 else width
@@ -168,11 +168,10 @@ def sofa(f, width, cloth, foot, seats=2):
 
 AMPHORA = ((.30, .06), (.95, .42), (1.0, .55), (.80, .72), (.36, .84), (.34, .92), (.50, 1.0))
 URN = ((.35, .05), (.22, .12), (.85, .40), (1.0, .62), (.95, .75), (.70, .82), (.85, 1.0))
-BUST = ((.55, .03), (.35, .10), (.62, .22), (.98, .40), (1.0, .48), (.42, .58), (.40, .64), (.62, .74), (.66, .84),
-        (.50, .94), (.25, 1.0))
+BUST = ((.35, .10), (.62, .22), (1.0, .46), (.42, .58), (.40, .64), (.64, .75), (.64, .85), (.45, .96), (.20, 1.0))
 
 
-def turned(m, x, y, z, radius, height, shape, material, sides=12):
+def turned(m, x, y, z, radius, height, shape, material, sides=8):
     """A turned body on a square foot: a vase, an urn, something like a bust. `shape`: (radius, height) as fractions."""
     foot = .02
     first = shape[0][0] * radius
@@ -182,7 +181,7 @@ def turned(m, x, y, z, radius, height, shape, material, sides=12):
     m.lathe(x, z, (first, y + foot), bands + [(0, y + height, material, 0)], sides)
 
 
-def lamp(m, x, y, z, stem_height, shade, stem_material, shade_material, sides=12):
+def lamp(m, x, y, z, stem_height, shade, stem_material, shade_material, sides=8):
     """A lamp with a glowing shade; `shade` is (lower radius, upper radius, height). For a table or, tall, for the floor."""
     foot, stem = (.07, .012) if stem_height < .6 else (.14, .016)
     low, high, tall = shade

@@ -21,9 +21,9 @@ def library():
         "columns throw soft shadows, the coffers are lit from the floor alone, the carpet reddens the table's underside,",
         "and three lamps and a bed of embers stand against the blue light in a warm one.",
         "Look: --eye 0.7,1.65,4.6 --at 8,1.5,3.7 --fov 62       along the nave, from the door",
-        "Look: --eye 11.1,1.7,1.0 --at 4.4,1.3,6.2 --fov 62     windows behind, bookcases opposite",
-        "Look: --eye 3.2,1.6,7.2 --at 7.6,1.6,0.8 --fov 62      towards the windows",
-        "Look: --eye 7.0,1.5,4.9 --at 11.8,1.35,3.9 --fov 55    the hearth",
+        "Look: --eye 10.2,1.8,3.7 --at 3.5,1.3,6.1 --fov 60     from the hearth to the bookcases",
+        "Look: --eye 3.6,1.7,5.85 --at 6.2,1.5,1.0 --fov 62     towards the windows",
+        "Look: --eye 8.6,1.5,4.7 --at 11.8,1.3,3.9 --fov 60     the hearth",
         "Source: our own. " + LICENCE])
     materials(m)
     shell(m)
@@ -42,11 +42,11 @@ def library():
 
 
 def materials(m):
-    m.material("plaster", (.74, .71, .64))
+    m.material("plaster", (.71, .63, .49))
     m.material("ceiling", (.80, .78, .73))
     m.material("stone", (.66, .63, .56))
     m.material("marble", (.80, .78, .75))
-    m.material("floor", (.47, .42, .35), comment="limestone")
+    m.material("floor", (.50, .43, .34), comment="limestone")
     m.material("floor_band", (.20, .17, .15))
     m.material("frame_paint", (.79, .78, .74))
     m.material("walnut", (.23, .14, .085))
@@ -67,7 +67,7 @@ def materials(m):
         m.material(name, kd)
     m.material("sky", (.05, .05, .05), (11, 14, 19), "window panes: an even sky; what falls on them from inside leaves")
     m.material("lamp_shade", (.70, .62, .48), (28, 19, 9.5))
-    m.material("embers", (.12, .08, .06), (26, 8, 1.6))
+    m.material("embers", (.12, .08, .06), (16, 4, .7))
 
 
 def shell(m):
@@ -128,8 +128,8 @@ def window(m, x, width, sill, spring, reveal=.34, bar=.04, arc=5):
 
 def columns(m):
     m.group("columns")
-    abacus, profile = 4.08, [(.285, .20, 1), (.260, .25, 1), (.215, .30, 2), (.205, 1.70, 3), (.175, 3.78, 3),
-                             (.200, 3.81, 4), (.175, 3.84, 4), (.175, 3.93, 5), (.195, 3.98, 5), (.225, 4.08, 5)]
+    abacus, profile = 4.08, [(.285, .20, 1), (.260, .25, 1), (.210, .30, 2), (.175, 3.82, 3),
+                             (.200, 3.85, 4), (.175, 3.88, 4), (.185, 3.98, 5), (.225, 4.08, 5)]
     for x in COLUMN_X:
         for z in COLUMN_Z:
             m.solid((x - .3, 0, z - .3), (x + .3, .15, z + .3), "stone", top="omit")
@@ -192,12 +192,14 @@ def hearth(m):
     m.solid((front - .65, 0, 3.15), (front - .10, .03, 4.85), "stone")
     m.solid((front - .10, 0, 3.45), (front, .03, 4.55), "stone")
     m.solid((front + .08, .03, 3.65), (LENGTH + .12, .10, 4.35), "soot", top="embers")
+    for x, z0, z1 in ((front + .13, 3.75, 4.20), (front + .24, 3.82, 4.28)):
+        m.solid((x, .10, z0), (x + .08, .18, z1), "book_brown")
     for y, z in ((1.29, 3.3), (1.29, 4.7)):
         turned(m, front - .10, y, z, .075, .30, AMPHORA, "glaze", 8)
     m.group("clock")
     m.solid((front - .15, 1.29, 3.86), (front - .05, 1.33, 4.14), "walnut")
     m.solid((front - .14, 1.33, 3.89), (front - .06, 1.55, 4.11), "walnut", left="paper")
-    m.group("mirror")
+    m.group("seascape")
     picture(Frame(m, front, 2.35, 4, 3), 1.3, 1.4, "brass", [(0, 1, 0, .33, "sea"), (0, 1, .33, 1, "book_cream")], .08, .05)
 
 
@@ -282,7 +284,7 @@ def things(m):
     x, z = BAY_X[1] - .1, 1.05
     m.solid((x - .24, 0, z - .24), (x + .24, .06, z + .24), "walnut", top="omit")
     m.square_around_circle(x, .06, z, .24, .10, True, "walnut")
-    low, bands = sphere_bands(.36, 0, .05, "sea", 2, 10)
+    low, bands = sphere_bands(.36, 0, .05, "sea", 2, 8)
     stem = [(.05, .14, "walnut", 1), (.045, .40, "walnut", 1), (.08, .46, "walnut", 1), (.05, .56, "brass", 0)]
     m.lathe(x, z, (.10, .06), stem + [(r, h + .56 - low, material, s) for r, h, material, s in bands])
     m.group("pedestals")
@@ -291,7 +293,7 @@ def things(m):
         m.solid((x - .26, 0, z - .26), (x + .26, .12, z + .26), "marble")
         m.solid((x - .20, .12, z - .20), (x + .20, .98, z + .20), "marble")
         m.solid((x - .25, .98, z - .25), (x + .25, 1.06, z + .25), "marble")
-        turned(m, x, 1.06, z, .22, .72, shape, "terracotta", 16)
+        turned(m, x, 1.06, z, .22, .72, shape, "terracotta")
     m.group("armchairs")
     for f in (Frame(m, 10.75, 0, 2.15, 0), Frame(m, 10.75, 0, 5.85, 2)):
         sofa(f, .95, "leather", "walnut", 1)

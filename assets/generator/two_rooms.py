@@ -1,5 +1,5 @@
 """Two rooms and a door between them: the lamp is in one room only."""
-from .furniture import Frame, casing, chair, picture, skirting, sphere_bands, table
+from .furniture import Chooser, Frame, books, casing, chair, picture, skirting, sofa, sphere_bands, table
 from .model import Model
 from .small_scenes import LICENCE
 
@@ -10,7 +10,7 @@ def two_rooms():
         "Teaches: light that has to be reflected to arrive. The lamp is in the first room (x < 4.0); the second (x > 4.2) is",
         "lit only through the door, by one slanting beam and by what the first room reflects: its orange wall reddens the",
         "second room. A solver that stops after the direct light leaves half of the second room black.",
-        "Look: --eye 7.6,1.6,0.5 --at 4.2,1.1,1.9 --fov 68     the dark room, its door, the lit room behind",
+        "Look: --eye 7.6,1.6,0.9 --at 4.2,1.1,1.9 --fov 60     the dark room, its door, the lit room behind",
         "Look: --eye 3.6,1.6,3.2 --at 0.9,1.0,0.9 --fov 72     the lit room",
         "Look: --eye 4.6,1.6,0.6 --at 7.6,0.9,2.6 --fov 72     the dark room from its door",
         "Source: our own. " + LICENCE])
@@ -31,7 +31,7 @@ def two_rooms():
     lamp = m.material("lamp", (.80, .80, .80), (30, 25, 18), "a plate of frosted glass, 0.36 m^2")
 
     depth, height = 3.6, 2.6
-    door = (1.35, 2.25, 2.05)  # z from, z to, height
+    door = (1.30, 2.30, 2.10)  # z from, z to, height
     door_z = (door[0] + door[1]) / 2
 
     m.group("room_lit")
@@ -44,20 +44,20 @@ def two_rooms():
         m.solid((4.10, 0, z[0]), (4.14, door[2], z[1]), trim)
     m.solid((4.10, door[2] - .015, door[0] + .015), (4.14, door[2], door[1] - .015), trim)
     m.group("door_frame")
-    casing(Frame(m, 4, 0, door_z, 3), .9, door[2], .08, .025, trim)
-    casing(Frame(m, 4.2, 0, door_z, 1), .9, door[2], .08, .025, trim)
+    casing(Frame(m, 4, 0, door_z, 3), 1.0, door[2], .08, .025, trim)
+    casing(Frame(m, 4.2, 0, door_z, 1), 1.0, door[2], .08, .025, trim)
     m.group("door_leaf")  # stands open at a right angle, one centimetre above the floor
-    m.solid((4.225, .01, 2.26), (5.105, 2.04, 2.30), trim)
-    for z0, z1 in ((2.20, 2.26), (2.30, 2.36)):
-        m.solid((5.02, 1.02, z0), (5.04, 1.04, z1), brass)
-        towards = (z0 - .02, z0) if z0 < 2.26 else (z1, z1 + .02)
-        m.solid((4.92, 1.02, towards[0]), (5.04, 1.04, towards[1]), brass)
+    m.solid((4.225, .01, 2.32), (5.205, 2.09, 2.36), trim)
+    for z0, z1 in ((2.26, 2.32), (2.36, 2.42)):
+        m.solid((5.12, 1.02, z0), (5.14, 1.04, z1), brass)
+        towards = (z0 - .02, z0) if z0 < 2.3 else (z1, z1 + .02)
+        m.solid((5.02, 1.02, towards[0]), (5.14, 1.04, towards[1]), brass)
 
     m.group("skirting")
     skirting(m, (0, 0), (4, depth), .08, .015, trim,
              [("right", door[0] - .08, door[1] + .08), ("far", .8, 2.4)])
     skirting(m, (4.2, 0), (8, depth), .08, .015, trim,
-             [("left", door[0] - .08, door[1] + .08), ("near", 4.9, 6.8)])
+             [("left", door[0] - .08, door[1] + .08), ("near", 5.0, 6.9), ("far", 5.0, 6.4)])
 
     m.group("lamp")
     m.solid((.9, height - .06, .7), (1.5, height, 1.3), trim, bottom="omit")
@@ -96,20 +96,26 @@ def two_rooms():
     picture(Frame(m, 1.75, 1.55, depth, 2), .9, .65, dark,
             [(0, .62, 0, .4, green), (0, .62, .4, 1, cloth), (.62, 1, 0, .4, clay), (.62, 1, .4, 1, cushion)])
 
-    m.group("sofa")
-    m.solid((4.9, .10, 0), (6.8, .38, .85), cloth)
-    for x in (4.94, 6.70):
-        m.solid((x, 0, .06), (x + .06, .10, .12), dark)
-        m.solid((x, 0, .73), (x + .06, .10, .79), dark)
-    m.solid((4.9, .38, 0), (6.8, .82, .22), cloth)
-    for x in (4.9, 6.62):
-        m.solid((x, .38, .22), (x + .18, .60, .85), cloth)
-    m.solid((5.08, .38, .22), (5.84, .48, .83), cloth)
-    m.solid((5.86, .38, .22), (6.62, .48, .83), cloth)
-    m.solid((5.16, .48, .22), (5.56, .84, .34), cushion)
+    m.group("picture_near")
+    picture(Frame(m, 2.3, 1.5, 0, 0), 1.3, .8, dark,
+            [(0, 1, 0, .35, clay), (0, .5, .35, 1, cushion), (.5, 1, .35, .7, green), (.5, 1, .7, 1, plaster)])
 
+    m.group("sofa")
+    sofa(Frame(m, 5.95, 0, 0), 1.9, cloth, dark)
+    m.solid((5.24, .48, .22), (5.64, .82, .34), cushion)
+    m.group("shelf")
+    m.solid((5.0, 0, 3.3), (6.4, 1.0, depth), wood)
+    choose = Chooser(3)
+    for k in range(2):
+        for y in (.08, .53):
+            x = 5.03 + .68 * k
+            m.group("shelf")
+            m.void((x, y, 3.3), (x + .66, y + .42, depth - .02), wood)
+            m.group("shelf_books")
+            books(Frame(m, x + .66, y, depth - .02, 2), .66 if choose(2) else .45, .26, .36, choose,
+                  [orange, cloth, cushion, green, clay])
     m.group("rug")
-    m.solid((5.2, 0, 1.15), (7.2, .012, 2.45), rug)
+    m.solid((5.2, 0, 1.15), (7.1, .012, 2.45), rug)
     m.group("low_table")
     table(Frame(m, 6.0, .012, 1.6), .9, .55, .40, wood, leg=.05, top=.03, apron=.05)
     m.group("sphere_on_plinth")
