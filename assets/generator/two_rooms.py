@@ -115,7 +115,7 @@ def two_rooms():
             books(Frame(m, x + .66, y, depth - .02, 2), .66 if choose(2) else .45, .26, .36, choose,
                   [orange, cloth, cushion, green, clay])
     m.group("rug")
-    m.solid((5.2, 0, 1.15), (7.1, .012, 2.45), rug)
+    m.solid((5.3, 0, 1.15), (7.1, .012, 2.45), rug)
     m.group("low_table")
     table(Frame(m, 6.0, .012, 1.6), .9, .55, .40, wood, leg=.05, top=.03, apron=.05)
     m.group("sphere_on_plinth")
