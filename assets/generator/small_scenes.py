@@ -82,7 +82,7 @@ def two_patches():
         "Two patches: a light in the ceiling over a floor, the first example of every lecture on radiosity.",
         "Unit: m, y up. E and B in W/m^2.",
         "Teaches: light that goes back and forth between two patches and grows less with each reflection.",
-        "Look: --eye 4.3,1.1,4.9 --at 2,0.8,1.5 --fov 50",
+        "Look: --eye 4.6,1.1,5.5 --at 2,0.75,1.5 --fov 50",
         f"Light 1: 2 x 1 m, {height} m above floor 2: 4 x 3 m; only their inner sides count (--emit front).",
         f"Exact form factors F12 = {f12:.9f}, F21 = F12 A1/A2 = {f21:.9f}. With E1 = {emission}, rho1 = {rho1} and rho2 = {rho2}",
         "(red channel), and one radiosity for each patch, B1 = E1/(1 - rho1 rho2 F12 F21), B2 = rho2 F21 B1:",
