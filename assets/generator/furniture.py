@@ -121,11 +121,11 @@ def sphere_bands(radius, centre, foot_radius, material, smoothing, rings=8, top_
     return -radius * sin(start), bands
 
 
-def books(f, width, depth, rows, choose, materials, sizes=((.20, .15), (.23, .17), (.26, .19), (.29, .21))):
-    """Books side by side from local x = 0 to `width`, standing on y = 0 with their tops at most rows high and their fore
-    edges at z = 0 (the shelf's back). `choose(n)` gives a number below n: the order is the caller's."""
+def books(f, width, depth, tallest, choose, materials, sizes=((.20, .15), (.23, .17), (.26, .19), (.29, .21))):
+    """Books side by side from local x = 0 to `width`, standing on y = 0 against z = 0 (the shelf's back) and at most
+    `depth` deep and `tallest` high. `choose(n)` gives a number below n."""
     x = 0.0
-    usable = [s for s in sizes if s[0] <= rows and s[1] <= depth]
+    usable = [s for s in sizes if s[0] <= tallest and s[1] <= depth]
     while width - x > 1e-6:
         volumes = 1 if choose(3) else 2 + choose(3)  # single books, and sets in one colour
         height, thick = usable[choose(len(usable))]
