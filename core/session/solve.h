@@ -95,6 +95,7 @@ class Solve {
   EnergyBalance energy() const;
   const PhaseSeconds& seconds() const;
   std::size_t keptBytes() const;  ///< memory held by kept columns
+  std::uint64_t drawn() const;                 ///< hemicubes drawn
   /// "error", "max_seconds", "max_shots", "interrupted", "no light", or what failed.
   const std::string& stoppedBy() const;
 

@@ -1,0 +1,81 @@
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "cli/commands.h"
+#include "cli/gl_context.h"
+#include "cli/options.h"
+#include "cli/text.h"
+#include "exit_codes.h"
+#include "report/report_json.h"
+#include "scene/obj_reader.h"
+#include "session/solve.h"
+
+namespace unshot {
+namespace {
+
+struct CheckRequest {
+  std::string scene;
+  bool json = false;
+};
+
+/// Labels of repeated lines stand only in the first.
+void addLine(Lines& lines, const std::string& label, const std::string& value, bool first) {
+  lines.emplace_back(first ? label : "", value);
+}
+
+void printCheck(const Scene& scene, const Diagnostics& diagnostics, const std::vector<PlanDecision>& plan) {
+  const SceneFigures figures = figuresOf(scene);
+  std::string lights = "none: everything stays black";
+  if (figures.emitters > 0) {
+    lights = countedText(figures.emitters, "polygon") + " of " + figureText(figures.emitter_area) + " m^2";
+  }
+  Lines lines = {{"scene", scene.path.string()},
+                 {"faces", countText(figures.faces)},
+                 {"polygons", countText(figures.polygons)},
+                 {"triangles", countText(figures.triangles)},
+                 {"materials", countText(figures.materials) + " in use"},
+                 {"lights", lights},
+                 {"extent", extentText(figures.extent) + " m"},
+                 {"area", figureText(figures.area) + " m^2 (one side)"},
+                 {"closed", figures.closed() ? "yes: every edge joins an even number of polygons"
+                                             : "not shown: " + countedText(figures.open_edges, "open edge")}};
+  bool first = true;
+  for (const PlanDecision& decision : plan) {
+    const std::string saving = decision.saving.empty() ? "" : " (" + decision.saving + ")";
+    addLine(lines, "plan", decision.what + ": " + decision.why + saving, std::exchange(first, false));
+  }
+  printLines(std::cout, lines);
+  if (diagnostics.empty()) {
+    std::cout << "\nNothing is wrong with this scene.\n";
+    return;
+  }
+  std::cout << "\n" << countedText(diagnostics.size(), "doubt") << ":\n";
+  printDiagnostics(std::cout, diagnostics);
+}
+
+int runCheck(const CheckRequest& request) {
+  const Scene scene = readObj(request.scene);
+  LazyContext context("auto");
+  const Solve solve(scene, SolveOptions{}, [&]() -> gl::Context& { return context.get(); });
+  if (request.json) {
+    std::cout << checkJson(scene, solve.diagnostics(), solve.plan());
+  } else {
+    printCheck(scene, solve.diagnostics(), solve.plan());
+  }
+  return kExitDone;
+}
+
+}  // namespace
+
+void addCheckCommand(CLI::App& app, Run& run) {
+  auto request = std::make_shared<CheckRequest>();
+  CLI::App* command =
+      app.add_subcommand("check", "Say what is in a scene, what is wrong with it and what it does not need");
+  command->footer("Ends with 0 where the scene can be read, whatever doubts there are.");
+  addFileArgument(*command, "SCENE.obj", request->scene, "The scene: Wavefront OBJ with MTL");
+  command->add_flag("--json", request->json, "Print JSON");
+  command->callback([request, &run] { run = [request] { return runCheck(*request); }; });
+}
+
+}  // namespace unshot

@@ -1,0 +1,122 @@
+#include "cli/command_line.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <iostream>
+#include <vector>
+
+#include "base/error.h"
+#include "cli/commands.h"
+#include "exit_codes.h"
+
+namespace unshot {
+namespace {
+
+struct Command {
+  std::string_view name;
+  void (*add)(CLI::App& app, Run& run);
+};
+
+constexpr std::array<Command, 5> kCommands = {{{"view", addViewCommand},
+                                               {"solve", addSolveCommand},
+                                               {"check", addCheckCommand},
+                                               {"compare", addCompareCommand},
+                                               {"list", addListCommand}}};
+
+constexpr const char* kFooter =
+    "Without a command, `unshot SCENE.obj` opens the viewer.\n"
+    "\n"
+    "Exit codes: 0 done, 1 internal error, 2 usage, 3 input, 4 environment, 5 not converged\n"
+    "within the limits given, 6 comparison failed, 130 interrupted. After 5 and 130 the\n"
+    "result is written all the same.";
+
+std::string commandNames() {
+  std::string names;
+  for (const Command& command : kCommands) names += (names.empty() ? "" : ", ") + std::string(command.name);
+  return names;
+}
+
+/// The arguments without the program's name, with `view` put first where no command is named.
+std::vector<std::string> argumentsOf(int argc, const char* const* argv) {
+  std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+  if (arguments.empty()) return {"view"};
+  const std::string& first = arguments.front();
+  const bool about_program = first == "--help" || first == "-h" || first == "--version";
+  if (about_program || isCommand(first)) return arguments;
+  const bool names_file = first.find_first_of("./\\") != std::string::npos || std::filesystem::exists(first);
+  if (!names_file && !first.starts_with('-')) {
+    throw Error(ErrorKind::kUsage, "there is no command '" + first + "'", {}, "one of: " + commandNames());
+  }
+  arguments.insert(arguments.begin(), "view");
+  return arguments;
+}
+
+/// "unshot solve --help lists the options", for the command that was being parsed.
+std::string adviceOf(const std::vector<std::string>& arguments) {
+  const std::string command =
+      arguments.front() == "view" || !isCommand(arguments.front()) ? "" : " " + arguments.front();
+  return "unshot" + command + " --help lists the options";
+}
+
+/// CLI11's message in our words.
+std::string messageOf(const CLI::ParseError& error) {
+  const std::string text = error.what();
+  const std::string name = text.substr(0, text.find(':'));
+  if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
+    const std::string extra = text.substr(text.rfind(": ") + 2);
+    const std::string first = extra.substr(0, extra.find(' '));
+    return first.starts_with('-') ? "there is no option '" + first + "'"
+                                  : "'" + first + "' is one argument too many";
+  }
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
+    return text.find("At Most") != std::string::npos ? name + " may be given only once"
+                                                     : name + " needs a value";
+  }
+  if (dynamic_cast<const CLI::RequiredError*>(&error))
+    return text.substr(0, text.find(" is required")) + " is missing";
+  if (dynamic_cast<const CLI::RequiresError*>(&error)) {
+    const std::size_t middle = text.find(" requires ");
+    return text.substr(0, middle) + " needs " + text.substr(middle + 10) + " beside it";
+  }
+  if (dynamic_cast<const CLI::ExcludesError*>(&error)) {
+    const std::size_t middle = text.find(" excludes ");
+    return text.substr(0, middle) + " and " + text.substr(middle + 10) + " cannot be given together";
+  }
+  return text;
+}
+
+}  // namespace
+
+bool isCommand(std::string_view word) {
+  return std::any_of(kCommands.begin(), kCommands.end(), [&](const Command& c) { return c.name == word; });
+}
+
+int runCommandLine(int argc, const char* const* argv) {
+  std::vector<std::string> arguments = argumentsOf(argc, argv);
+  CLI::App app("Unshot: radiosity of OBJ scenes, with a measure of how wrong the picture still is.",
+               "unshot");
+  app.set_version_flag("--version", std::string("unshot ") + UNSHOT_VERSION, "Print the version and end");
+  app.set_help_flag("-h,--help", "Print this help and end");
+  app.get_formatter()->column_width(26);
+  app.footer(kFooter);
+  app.require_subcommand(1);
+  Run run;
+  for (const Command& command : kCommands) command.add(app, run);
+  try {
+    // CLI11 takes the arguments from the end.
+    std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
+    app.parse(reversed);
+  } catch (const CLI::Success& asked_for_text) {
+    return app.exit(asked_for_text, std::cout, std::cout);
+  } catch (const CLI::ParseError& error) {
+    throw Error(ErrorKind::kUsage, messageOf(error), {}, adviceOf(arguments));
+  }
+  const int code = run();
+  std::cout.flush();
+  if (!std::cout)
+    throw Error(ErrorKind::kEnvironment, "standard output cannot be written", {}, "check where it leads");
+  return code;
+}
+
+}  // namespace unshot

@@ -1,0 +1,57 @@
+#include <algorithm>
+#include <iostream>
+#include <string>
+
+#include "cli/commands.h"
+#include "exit_codes.h"
+#include "export/exporters.h"
+#include "formfactor/methods.h"
+#include "gl/context.h"
+#include "render/display_modes.h"
+#include "solver/modes.h"
+
+namespace unshot {
+namespace {
+
+/// One table: the option that takes its keys, and a row each: key, title, help, and why it cannot be had on this machine.
+template <class Row, class Unavailable>
+void printTable(const std::string& title, std::span<const Row> table, const std::string& prefix, Unavailable unavailable) {
+  std::size_t key_width = 0, title_width = 0;
+  for (const Row& row : table) {
+    key_width = std::max(key_width, prefix.size() + row.info.key.size());
+    title_width = std::max(title_width, row.info.title.size());
+  }
+  std::cout << title << "\n";
+  for (const Row& row : table) {
+    const std::string key = prefix + std::string(row.info.key);
+    std::cout << "  " << key << std::string(key_width - key.size() + 2, ' ') << row.info.title
+              << std::string(title_width - row.info.title.size() + 2, ' ') << row.info.help << "\n";
+    const std::string reason = unavailable(row);
+    if (!reason.empty()) std::cout << std::string(key_width + 4, ' ') << "not available here: " << reason << "\n";
+  }
+  std::cout << "\n";
+}
+
+int runList() {
+  const auto available = [](const auto&) { return std::string(); };
+  printTable("Iteration modes (--mode)", iterationModes(), "", available);
+  printTable("Form-factor methods (--form-factors)", formFactorMethods(), "", available);
+  printTable("Display modes (--display)", displayModes(), "", available);
+  printTable("Exporters", exporters(), "--", available);
+  printTable("OpenGL providers (--gl)", gl::providers(), "", [](const gl::Provider& p) {
+    const std::string reason = p.unavailable();
+    return reason.empty() ? reason : reason + " (Debian: apt install " + std::string(p.packages) + ")";
+  });
+  std::cout << "Where a key is not given, or is auto, the program chooses and says what it chose.\n";
+  return kExitDone;
+}
+
+}  // namespace
+
+void addListCommand(CLI::App& app, Run& run) {
+  CLI::App* command =
+      app.add_subcommand("list", "List every mode, method, display, exporter and provider, and what works here");
+  command->callback([&run] { run = [] { return runList(); }; });
+}
+
+}  // namespace unshot

@@ -1,0 +1,90 @@
+#include "cli/options.h"
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "base/parse.h"
+#include "cli/text.h"
+
+namespace unshot {
+namespace {
+
+std::optional<std::uint64_t> parseWhole(std::string_view text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::string quoted(const std::string& text) { return "'" + text + "'"; }
+
+}  // namespace
+
+Check numberWithin(double low, double high, const std::string& unit, bool low_excluded) {
+  return [=](const std::string& text) -> std::string {
+    const std::optional<double> value = parseNumber(text);
+    if (!value || std::isnan(*value)) return quoted(text) + " is not a number";
+    if (*value <= high && (low_excluded ? *value > low : *value >= low) && std::isfinite(*value)) return {};
+    const std::string end = unit.empty() ? "" : " " + unit;
+    if (high >= std::numeric_limits<double>::max()) {
+      return text + " is not " + (low_excluded ? "above " : "at least ") + figureText(low) + end;
+    }
+    return text + " is not " + (low_excluded ? "above " : "from ") + figureText(low) +
+           (low_excluded ? " and at most " : " to ") + figureText(high) + end;
+  };
+}
+
+Check positiveNumber() { return numberWithin(0, std::numeric_limits<double>::max(), {}, true); }
+
+Check wholeNumber(std::uint64_t low, std::uint64_t high, bool even) {
+  return [=](const std::string& text) -> std::string {
+    const std::optional<std::uint64_t> value = parseWhole(text);
+    if (!value) return quoted(text) + " is not a whole number";
+    if (*value < low || *value > high) {
+      if (high == std::numeric_limits<std::uint64_t>::max())
+        return text + " is not at least " + countText(low);
+      return text + " is not from " + countText(low) + " to " + countText(high);
+    }
+    return even && *value % 2 == 1 ? text + " is not even" : "";
+  };
+}
+
+Check vectorText() {
+  return [](const std::string& text) -> std::string {
+    const std::optional<glm::dvec3> v = parseVector(text);
+    if (!v) return quoted(text) + " is not x,y,z (three numbers with commas, no blanks)";
+    if (!std::isfinite(v->x) || !std::isfinite(v->y) || !std::isfinite(v->z))
+      return quoted(text) + " is not finite";
+    return {};
+  };
+}
+
+Check sizeText() {
+  return [](const std::string& text) -> std::string {
+    const std::vector<std::string_view> parts = splitParts(text, 'x');
+    if (parts.size() != 2) return quoted(text) + " is not WIDTHxHEIGHT, such as 800x600";
+    for (const std::string_view part : parts) {
+      const std::optional<std::uint64_t> value = parseWhole(part);
+      if (!value) return quoted(text) + " is not WIDTHxHEIGHT, such as 800x600";
+      if (*value < 1 || *value > 16384) return quoted(text) + " is not from 1x1 to 16384x16384";
+    }
+    return {};
+  };
+}
+
+Check fileName() {
+  return [](const std::string& text) -> std::string {
+    if (text.empty()) return "the name is empty";
+    if (text.starts_with("--"))
+      return "a file name is missing before " + text + " (write ./" + text + " for a file of that name)";
+    return {};
+  };
+}
+
+CLI::Option* addFileArgument(CLI::App& app, const std::string& name, std::string& value,
+                             const std::string& help) {
+  return app.add_option(name, value, help)->option_text(" ")->check(fileName())->required();
+}
+
+}  // namespace unshot

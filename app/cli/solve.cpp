@@ -1,0 +1,145 @@
+#include "session/solve.h"
+
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/clock.h"
+#include "cli/commands.h"
+#include "cli/gl_context.h"
+#include "cli/interrupt.h"
+#include "cli/picture.h"
+#include "cli/progress.h"
+#include "cli/solve_request.h"
+#include "cli/summary.h"
+#include "cli/text.h"
+#include "exit_codes.h"
+#include "gl/shaders.h"
+#include "report/report_json.h"
+#include "scene/obj_reader.h"
+
+namespace unshot {
+namespace {
+
+/// Steps until the solve is over or the user interrupts it.
+void runSteps(Solve& solve, Progress& progress) {
+  const InterruptFlag interrupted;
+  while (solve.state() == SolveState::kRunning) {
+    if (interrupted.raised()) {
+      solve.interrupt();
+      break;
+    }
+    solve.step();
+    const Measures& m = solve.measures();
+    progress.update({solve.progress(), m.unshot_fraction, m.shots, m.seconds});
+  }
+  progress.finish();
+}
+
+/// Writes every output. Where one fails, the others are written all the same, and the first Error is
+/// returned.
+std::optional<Error> writeOutputs(const SolveRequest& request, const ExportSource& source,
+                                  std::vector<std::string>& written) {
+  std::optional<Error> first;
+  for (const Output& output : request.outputs) {
+    try {
+      output.exporter->write(source, output.path);
+      written.push_back(output.path.string());
+    } catch (const Error& error) {
+      if (first) {
+        std::cerr << "unshot: " << error.fullText() << std::endl;
+      } else {
+        first = error;
+      }
+    } catch (const std::exception& error) {
+      const Error wrapped(ErrorKind::kInternal, std::string("could not be made: ") + error.what(),
+                          output.path.string());
+      if (!first) first = wrapped;
+    }
+  }
+  return first;
+}
+
+/// The exit code of a solve that has ended, with a word on standard error where it has not converged.
+int concludeSolve(const Solve& solve, const SolveOptions& options) {
+  switch (solve.state()) {
+    case SolveState::kConverged:
+      return kExitDone;
+    case SolveState::kInterrupted:
+      std::cerr << "unshot: interrupted; what was reached is written" << std::endl;
+      return kExitInterrupted;
+    case SolveState::kLimit:
+      std::cerr << "unshot: not converged: " << percentText(solve.measures().unshot_fraction)
+                << " is unshot, " << percentText(options.error) << " was asked for; stopped by "
+                << solve.stoppedBy() << "\n  try: a higher limit, a larger --error or fewer --elements"
+                << std::endl;
+      return kExitNotConverged;
+    default:
+      break;
+  }
+  throw Error(ErrorKind::kInternal, "the solve failed: " + solve.stoppedBy(), solve.scene().path.string(),
+              "another --mode or --form-factors; what was reached is written");
+}
+
+int runSolve(const SolveRequest& request) {
+  checkOutputs(request);
+  if (!request.shader_dir.empty()) gl::setShaderDir(request.shader_dir);
+  std::vector<Probe> probes;
+  if (!request.probe.empty()) probes = readProbes(request.probe);
+  Progress progress(request.options.max_seconds.value_or(0));
+  LazyContext context(request.gl);
+  // A picture needs GL: where there is none, that is said before the solve.
+  if (request.needsPicture()) context.get();
+  progress.phase("reading " + request.scene.string());
+  Scene scene = readObj(request.scene);
+  progress.finish();
+  printDiagnostics(std::cerr, scene.diagnostics);
+  const std::size_t said = scene.diagnostics.size();
+  progress.phase("meshing");
+  Solve solve(std::move(scene), request.options, [&]() -> gl::Context& { return context.get(); });
+  progress.finish();
+  const Diagnostics& all = solve.diagnostics();
+  if (all.size() > said)
+    printDiagnostics(std::cerr, Diagnostics(all.begin() + static_cast<std::ptrdiff_t>(said), all.end()));
+  runSteps(solve, progress);
+
+  const Snapshot snapshot = solve.snapshot();
+  const auto record = [&] {
+    RunRecord r = recordOf(solve);
+    r.gl = context.record();
+    return r;
+  };
+  PictureMaker pictures(context, snapshot, request.picture);
+  ExportSource source{.snapshot = snapshot,
+                      .with_ambient = request.picture.ambient,
+                      .exposure = exposureOf(snapshot, request.picture.ambient),
+                      .picture = [&] { return pictures.display(); },
+                      .radiance = [&] { return pictures.radiance(); },
+                      .report = [&] { return reportJson(record()); },
+                      .probes = probes,
+                      .warn = [](const Diagnostic& d) { printDiagnostics(std::cerr, {d}); }};
+  std::vector<std::string> written;
+  const std::optional<Error> failure = writeOutputs(request, source, written);
+  printSummary(std::cout, record(), request.options, written);
+  std::cout.flush();
+  if (failure) throw *failure;
+  return concludeSolve(solve, request.options);
+}
+
+}  // namespace
+
+void addSolveCommand(CLI::App& app, Run& run) {
+  CLI::App* command =
+      app.add_subcommand("solve", "Solve a scene without a window and write pictures, solutions, reports");
+  command->footer(
+      "Lengths are in the scene's unit, taken as metres. Ctrl-C stops between two steps and writes what\n"
+      "was reached; a second one ends the program at once.\n"
+      "\n"
+      "Example: unshot solve scene.obj --elements 20000 --png picture.png --report figures.json");
+  auto arguments = std::make_shared<SolveArguments>(*command);
+  command->callback([arguments, &run] { run = [arguments] { return runSolve(arguments->request()); }; });
+}
+
+}  // namespace unshot

@@ -1,0 +1,71 @@
+// What `unshot solve` was asked for.
+#pragma once
+
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/options.h"
+#include "export/exporters.h"
+#include "session/solve.h"
+
+namespace unshot {
+
+/// The picture as asked for; points in the file's own coordinates. What is not given is chosen from the
+/// scene.
+struct PictureRequest {
+  int width = 800, height = 600;
+  std::optional<glm::dvec3> eye, at, up;
+  std::optional<double> fov_deg;
+  std::string display = "radiosity";
+  double exposure_stops = 0;
+  bool ambient = false;
+};
+
+/// A file to be written.
+struct Output {
+  const Exporter* exporter = nullptr;
+  std::filesystem::path path;
+};
+
+struct SolveRequest {
+  std::filesystem::path scene;
+  SolveOptions options;
+  std::string gl = "auto";
+  std::filesystem::path shader_dir;
+  PictureRequest picture;
+  std::filesystem::path probe;
+  std::vector<Output> outputs;
+
+  bool needsPicture() const;
+};
+
+/// The options of `unshot solve` while they are parsed: text that CLI11 fills in.
+class SolveArguments {
+ public:
+  explicit SolveArguments(CLI::App& command);
+  /// Checks what can be checked without reading anything. Throws Error (kUsage).
+  SolveRequest request() const;
+
+ private:
+  void addSolver(CLI::App& command);
+  void addMesh(CLI::App& command);
+  void addLimits(CLI::App& command);
+  void addPicture(CLI::App& command);
+  void addOutputs(CLI::App& command);
+
+  SolveOptions options_;
+  std::string scene_, gl_ = "auto", shader_dir_, probe_, emit_ = "both";
+  std::optional<std::uint64_t> kept_mb_;
+  PictureRequest picture_;
+  std::string size_, eye_, at_, up_;
+  std::vector<std::string> outputs_;  ///< one per exporter, empty where not asked for
+};
+
+/// Finds out before the solve whether every output can be written and none replaces an input or another
+/// output. Throws Error (kUsage, kEnvironment).
+void checkOutputs(const SolveRequest& request);
+
+}  // namespace unshot

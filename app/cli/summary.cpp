@@ -1,0 +1,53 @@
+#include "cli/summary.h"
+
+#include "cli/text.h"
+
+namespace unshot {
+namespace {
+
+std::string stopText(const RunRecord& record, const SolveOptions& options) {
+  const std::string& by = record.stopped_by;
+  if (by == "error") return "error: unshot is below " + percentText(options.error);
+  if (by == "max_seconds" && options.max_seconds) return "max_seconds: " + durationText(*options.max_seconds);
+  if (by == "max_shots" && options.max_shots) return "max_shots: " + countText(*options.max_shots);
+  return by;
+}
+
+std::string rendererText(const RunRecord& record) {
+  if (!record.gl) return "none needed";
+  return record.gl->provider + ", " + record.gl->renderer + (record.gl->hardware ? "" : " (software)");
+}
+
+}  // namespace
+
+void printSummary(std::ostream& out, const RunRecord& record, const SolveOptions& options,
+                  const std::vector<std::string>& written) {
+  const PhaseSeconds& seconds = record.seconds;
+  const double total = seconds.load + seconds.mesh + seconds.plan + seconds.solve;
+  Lines lines = {
+      {"scene", record.scene_name + ": " + countedText(record.scene.faces, "face") + ", " +
+                    countedText(record.scene.materials, "material") + ", " +
+                    countedText(record.scene.emitters, "light polygon")},
+      {"mesh", countedText(record.counts.elements, "element") + ", " +
+                   countedText(record.counts.patches, "patch", "patches") + ", " +
+                   countedText(record.counts.vertices, "vertex", "vertices")},
+      {"method", record.mode + ", " + record.form_factors},
+      {"renderer", rendererText(record)},
+      {"shots", countText(record.counts.shots)},
+      {"unshot", percentText(record.measures.unshot_fraction)},
+      {"time", durationText(total) + " (load " + durationText(seconds.load) + ", mesh " +
+                   durationText(seconds.mesh) + ", plan " + durationText(seconds.plan) + ", solve " +
+                   durationText(seconds.solve) + "), CPU " + durationText(seconds.cpu_solve)},
+      {"memory", memoryText(static_cast<double>(record.peak_memory_bytes)) + " at most, " +
+                     memoryText(static_cast<double>(record.kept_bytes)) + " of it kept form factors"},
+      {"stopped by", stopText(record, options)},
+  };
+  for (const PlanDecision& decision : record.plan) {
+    lines.emplace_back("plan", decision.what + ": " + decision.why +
+                                   (decision.saving.empty() ? "" : " (" + decision.saving + ")"));
+  }
+  for (const std::string& file : written) lines.emplace_back("written", file);
+  printLines(out, lines);
+}
+
+}  // namespace unshot

@@ -1,0 +1,113 @@
+#include "base/point_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+#include <numeric>
+
+namespace unshot {
+namespace {
+
+constexpr std::uint32_t kLeafSize = 8;
+
+// Whether the segment meets the box (slab test over t in [0, 1]).
+bool segmentMeetsBox(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& low, const glm::dvec3& high) {
+  double t0 = 0, t1 = 1;
+  for (int k = 0; k < 3; ++k) {
+    const double d = b[k] - a[k];
+    if (d == 0) {
+      if (a[k] < low[k] || a[k] > high[k]) return false;
+      continue;
+    }
+    double enter = (low[k] - a[k]) / d, leave = (high[k] - a[k]) / d;
+    if (enter > leave) std::swap(enter, leave);
+    t0 = std::max(t0, enter);
+    t1 = std::min(t1, leave);
+    if (t0 > t1) return false;
+  }
+  return true;
+}
+
+double squaredDistanceToSegment(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
+  const glm::dvec3 d = b - a;
+  const double length2 = glm::dot(d, d);
+  const double t = length2 > 0 ? std::clamp(glm::dot(p - a, d) / length2, 0.0, 1.0) : 0.0;
+  const glm::dvec3 offset = p - (a + t * d);
+  return glm::dot(offset, offset);
+}
+
+}  // namespace
+
+PointTree::PointTree(std::span<const glm::dvec3> points) : points_(points), order_(points.size()) {
+  std::iota(order_.begin(), order_.end(), 0u);
+  if (!points.empty()) {
+    boxes_.reserve(2 * points.size() / kLeafSize + 2);
+    build(0, static_cast<std::uint32_t>(points.size()));
+  }
+}
+
+std::uint32_t PointTree::build(std::uint32_t first, std::uint32_t count) {
+  Box box{points_[order_[first]], points_[order_[first]], first, count, 0};
+  for (std::uint32_t k = first; k < first + count; ++k) {
+    box.low = glm::min(box.low, points_[order_[k]]);
+    box.high = glm::max(box.high, points_[order_[k]]);
+  }
+  const auto index = static_cast<std::uint32_t>(boxes_.size());
+  boxes_.push_back(box);
+  if (count <= kLeafSize) return index;
+  const glm::dvec3 size = box.high - box.low;
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+  const std::uint32_t half = count / 2;
+  std::nth_element(order_.begin() + first, order_.begin() + first + half, order_.begin() + first + count,
+                   [&](std::uint32_t i, std::uint32_t j) { return points_[i][axis] < points_[j][axis]; });
+  build(first, half);
+  const std::uint32_t right = build(first + half, count - half);
+  boxes_[index].right = right;
+  return index;
+}
+
+void PointTree::nearSegment(const glm::dvec3& a, const glm::dvec3& b, double distance,
+                            const std::function<void(std::uint32_t)>& found) const {
+  if (boxes_.empty()) return;
+  std::array<std::uint32_t, 64> stack{};
+  int depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const std::uint32_t index = stack[--depth];
+    const Box& box = boxes_[index];
+    if (!segmentMeetsBox(a, b, box.low - distance, box.high + distance)) continue;
+    if (box.right != 0) {
+      stack[depth++] = box.right;
+      stack[depth++] = index + 1;
+      continue;
+    }
+    for (std::uint32_t k = box.first; k < box.first + box.count; ++k) {
+      if (squaredDistanceToSegment(points_[order_[k]], a, b) <= distance * distance) found(order_[k]);
+    }
+  }
+}
+
+bool PointTree::anyInFront(const glm::dvec3& normal, double offset) const {
+  if (boxes_.empty()) return false;
+  std::array<std::uint32_t, 64> stack{};
+  int depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const std::uint32_t index = stack[--depth];
+    const Box& box = boxes_[index];
+    const glm::dvec3 corner{normal.x > 0 ? box.high.x : box.low.x, normal.y > 0 ? box.high.y : box.low.y,
+                            normal.z > 0 ? box.high.z : box.low.z};
+    if (glm::dot(normal, corner) <= offset) continue;
+    if (box.right != 0) {
+      stack[depth++] = box.right;
+      stack[depth++] = index + 1;
+      continue;
+    }
+    for (std::uint32_t k = box.first; k < box.first + box.count; ++k) {
+      if (glm::dot(normal, points_[order_[k]]) > offset) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace unshot

@@ -1,0 +1,37 @@
+// A balanced tree of bounding boxes over points: which points lie near a segment, whether any lies in front of a plane.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+namespace unshot {
+
+class PointTree {
+ public:
+  /// Keeps a reference to `points`, which must outlive the tree.
+  explicit PointTree(std::span<const glm::dvec3> points);
+
+  /// Calls `found(index)` for each point within `distance` of the segment a-b, in no particular order.
+  void nearSegment(const glm::dvec3& a, const glm::dvec3& b, double distance,
+                   const std::function<void(std::uint32_t)>& found) const;
+
+  /// Whether some point p has dot(normal, p) > offset.
+  bool anyInFront(const glm::dvec3& normal, double offset) const;
+
+ private:
+  struct Box {
+    glm::dvec3 low, high;
+    std::uint32_t first, count;  // points, in order_
+    std::uint32_t right;         // second child; the first follows its parent; 0 in a leaf
+  };
+  std::uint32_t build(std::uint32_t first, std::uint32_t count);
+
+  std::span<const glm::dvec3> points_;
+  std::vector<std::uint32_t> order_;
+  std::vector<Box> boxes_;
+};
+
+}  // namespace unshot

@@ -1,0 +1,63 @@
+#include "export/exporters.h"
+
+#include <algorithm>
+#include <array>
+
+#include "export/atomic_file.h"
+#include "export/image_files.h"
+#include "export/ply.h"
+
+namespace unshot {
+namespace {
+
+void writePngPicture(const ExportSource& source, const std::filesystem::path& path) {
+  writePng(path, source.picture());
+}
+
+void writeHdrPicture(const ExportSource& source, const std::filesystem::path& path) {
+  writeHdr(path, source.radiance());
+}
+
+void writePly(const ExportSource& source, const std::filesystem::path& path) {
+  writeWholeFile(path, plyBytes(source.snapshot, source.with_ambient, source.exposure));
+}
+
+void writeProbes(const ExportSource& source, const std::filesystem::path& path) {
+  const auto answers = answerProbes(source.snapshot, source.probes, source.with_ambient);
+  const auto missing = std::count(answers.begin(), answers.end(), std::nullopt);
+  if (missing > 0) {
+    source.warn({Severity::kWarning, "probe-off-surface",
+                 std::to_string(missing) + " of " + std::to_string(answers.size()) +
+                     " probes lie on no surface that faces their normal; their values are left empty",
+                 path.string(), "check positions and normals; both are in the file's own coordinates"});
+  }
+  writeWholeFile(path, probeCsv(source.probes, answers));
+}
+
+void writeReport(const ExportSource& source, const std::filesystem::path& path) {
+  writeWholeFile(path, source.report());
+}
+
+}  // namespace
+
+std::span<const Exporter> exporters() {
+  static constexpr std::array<Exporter, 5> kTable = {{
+      {{"png", "PNG picture", "the picture as displayed, 8 bits"}, ".png", true, writePngPicture},
+      {{"hdr", "Radiance HDR picture", "the picture as linear radiosity [W/m^2]"},
+       ".hdr",
+       true,
+       writeHdrPicture},
+      {{"ply", "PLY solution", "the mesh with radiosity at its vertices"}, ".ply", false, writePly},
+      {{"probe-out", "Probe values", "radiosity at the points of --probe, as CSV"},
+       ".csv",
+       false,
+       writeProbes},
+      {{"report", "JSON report", "figures of the solve: counts, times, errors, energy, history"},
+       ".json",
+       false,
+       writeReport},
+  }};
+  return kTable;
+}
+
+}  // namespace unshot

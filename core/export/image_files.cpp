@@ -1,0 +1,88 @@
+#include "export/image_files.h"
+
+#include <stb_image.h>
+#include <stb_image_write.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/srgb.h"
+#include "export/atomic_file.h"
+#include "export/read_file.h"
+
+namespace unshot {
+namespace {
+
+void appendTo(void* context, void* data, int size) {
+  static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+}
+
+struct FreeStb {
+  void operator()(void* p) const { stbi_image_free(p); }
+};
+
+template <class Value>
+using StbPixels = std::unique_ptr<Value[], FreeStb>;
+
+[[noreturn]] void failEncoding(const std::filesystem::path& path) {
+  throw Error(ErrorKind::kEnvironment, "the picture could not be encoded", path.string(),
+              "a smaller picture");
+}
+
+template <class Value>
+void requireDecoded(const StbPixels<Value>& pixels, const std::filesystem::path& path) {
+  if (pixels) return;
+  throw Error(ErrorKind::kInput,
+              std::string("this is not a picture that can be read (") + stbi_failure_reason() + ")",
+              path.string(), "a PNG or Radiance HDR file");
+}
+
+}  // namespace
+
+void writePng(const std::filesystem::path& path, const Image8& image) {
+  std::string bytes;
+  if (!stbi_write_png_to_func(appendTo, &bytes, image.width, image.height, 3, image.rgb.data(),
+                              3 * image.width)) {
+    failEncoding(path);
+  }
+  writeWholeFile(path, bytes);
+}
+
+void writeHdr(const std::filesystem::path& path, const ImageF& image) {
+  // stb converts negative values to unsigned bytes, which is undefined.
+  std::vector<float> values = image.rgb;
+  for (float& value : values) {
+    if (!(value > 0)) value = 0;
+  }
+  std::string bytes;
+  if (!stbi_write_hdr_to_func(appendTo, &bytes, image.width, image.height, 3, values.data()))
+    failEncoding(path);
+  writeWholeFile(path, bytes);
+}
+
+ImageF readImage(const std::filesystem::path& path) {
+  const std::string bytes = readFile(path);
+  const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
+  const int size = static_cast<int>(bytes.size());
+  ImageF image;
+  int channels = 0;
+  if (stbi_is_hdr_from_memory(data, size)) {
+    const StbPixels<float> pixels(
+        stbi_loadf_from_memory(data, size, &image.width, &image.height, &channels, 3));
+    requireDecoded(pixels, path);
+    image.rgb.assign(pixels.get(), pixels.get() + 3 * std::size_t(image.width) * std::size_t(image.height));
+    return image;
+  }
+  const StbPixels<stbi_us> pixels(
+      stbi_load_16_from_memory(data, size, &image.width, &image.height, &channels, 3));
+  requireDecoded(pixels, path);
+  image.rgb.resize(3 * std::size_t(image.width) * std::size_t(image.height));
+  for (std::size_t k = 0; k < image.rgb.size(); ++k) {
+    image.rgb[k] = static_cast<float>(linearFromSrgb(pixels[k] / 65535.0));
+  }
+  return image;
+}
+
+}  // namespace unshot

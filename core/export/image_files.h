@@ -1,0 +1,21 @@
+// Pictures in files: PNG (8 bits, sRGB) and Radiance HDR (linear). Home of stb_image and stb_image_write.
+#pragma once
+
+#include <filesystem>
+
+#include "base/image.h"
+
+namespace unshot {
+
+/// Writes a PNG. Throws Error (kEnvironment).
+void writePng(const std::filesystem::path& path, const Image8& image);
+
+/// Writes Radiance RGBE: about 1 % precision per channel, relative to the brightest of a pixel; what is
+/// negative or no number becomes 0. Throws Error (kEnvironment).
+void writeHdr(const std::filesystem::path& path, const ImageF& image);
+
+/// Reads a picture as linear values: HDR as it is, PNG and others (8 or 16 bits) decoded from sRGB to 0..1.
+/// Transparency is dropped. Throws Error (kInput).
+ImageF readImage(const std::filesystem::path& path);
+
+}  // namespace unshot

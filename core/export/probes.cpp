@@ -1,0 +1,146 @@
+#include "export/probes.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "base/error.h"
+#include "export/csv_table.h"
+#include "rays/nearest_triangle.h"
+
+namespace unshot {
+namespace {
+
+constexpr double kLeastCosine = 0.5;       // between the normals of probe and side
+constexpr double kReachOfDiagonal = 1e-3;  // a probe farther away from every side is off the scene
+
+/// The triangles that probes can lie on: the display triangles, and both sides of the scene's own where a
+/// side is dark.
+struct Target {
+  std::vector<glm::vec3> positions;
+  std::vector<std::uint32_t> corners;
+  std::vector<glm::vec3> normals;  ///< one per triangle
+  std::size_t displayed = 0;       ///< triangles below this number are display triangles
+
+  void add(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    corners.insert(corners.end(), {a, b, c});
+    const glm::vec3 normal = glm::cross(positions[b] - positions[a], positions[c] - positions[a]);
+    const float length = glm::length(normal);
+    normals.push_back(length > 0 ? normal / length : glm::vec3(0.0f));
+  }
+};
+
+void addDarkSides(const Mesh& mesh, Target& target) {
+  for (const Surface& surface : mesh.surfaces) {
+    for (int back = 0; back < 2; ++back) {
+      if (surface.side[back] != kNone) continue;
+      for (std::uint32_t t = surface.triangles.first; t < surface.triangles.end(); ++t) {
+        const auto first = static_cast<std::uint32_t>(target.positions.size());
+        for (const glm::dvec2& uv : mesh.triangles[t].uv) target.positions.emplace_back(surface.point(uv));
+        if (back) {
+          target.add(first, first + 2, first + 1);
+        } else {
+          target.add(first, first + 1, first + 2);
+        }
+      }
+    }
+  }
+}
+
+Target targetOf(const Mesh& mesh) {
+  Target target;
+  target.positions.reserve(mesh.vertices.size());
+  for (const Vertex& vertex : mesh.vertices) target.positions.push_back(vertex.position);
+  for (std::size_t k = 0; k + 2 < mesh.triangle_vertices.size(); k += 3) {
+    target.add(mesh.triangle_vertices[k], mesh.triangle_vertices[k + 1], mesh.triangle_vertices[k + 2]);
+  }
+  target.displayed = target.normals.size();
+  addDarkSides(mesh, target);
+  return target;
+}
+
+double requiredNumber(const CsvTable& table, std::size_t row, std::size_t column) {
+  const std::optional<double> value = table.number(row, column);
+  if (!value || !std::isfinite(*value)) {
+    throw Error(ErrorKind::kInput, "value " + std::to_string(column + 1) + " is missing or not finite",
+                table.where(row), "x,y,z,nx,ny,nz in every line");
+  }
+  return *value;
+}
+
+}  // namespace
+
+std::vector<Probe> readProbes(const std::filesystem::path& path) {
+  const CsvTable table = readCsv(path);
+  std::vector<Probe> probes;
+  probes.reserve(table.rows.size());
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    if (table.rows[row].size() < 6) {
+      throw Error(ErrorKind::kInput,
+                  "a probe needs six values, here are " + std::to_string(table.rows[row].size()),
+                  table.where(row), "x,y,z,nx,ny,nz in every line");
+    }
+    Probe probe;
+    for (int k = 0; k < 3; ++k) {
+      probe.position[k] = requiredNumber(table, row, static_cast<std::size_t>(k));
+      probe.normal[k] = requiredNumber(table, row, static_cast<std::size_t>(k + 3));
+    }
+    const double length = glm::length(probe.normal);
+    if (!(length > 0) || !std::isfinite(length)) {
+      throw Error(ErrorKind::kInput, "the normal of this probe has no direction", table.where(row),
+                  "the direction that the surface faces, such as 0,1,0");
+    }
+    probes.push_back(probe);
+  }
+  if (probes.empty()) {
+    throw Error(ErrorKind::kInput, "the file has no probes", path.string(), "lines of x,y,z,nx,ny,nz");
+  }
+  return probes;
+}
+
+std::vector<std::optional<glm::dvec3>> answerProbes(const Snapshot& snapshot, std::span<const Probe> probes,
+                                                    bool with_ambient) {
+  const Mesh& mesh = *snapshot.mesh;
+  const Target target = targetOf(mesh);
+  const NearestTriangle nearest(target.positions, target.corners);
+  const auto reach = static_cast<float>(kReachOfDiagonal * glm::length(mesh.bounds_max - mesh.bounds_min));
+  std::vector<std::optional<glm::dvec3>> answers(probes.size());
+  for (std::size_t k = 0; k < probes.size(); ++k) {
+    const glm::vec3 normal(glm::normalize(probes[k].normal));
+    const auto faces = [&](std::uint32_t triangle) {
+      return glm::dot(target.normals[triangle], normal) >= static_cast<float>(kLeastCosine);
+    };
+    const auto hit = nearest.find(glm::vec3(probes[k].position - mesh.frame_origin), reach, faces);
+    if (!hit) continue;
+    glm::dvec3 b{0.0};
+    if (hit->triangle < target.displayed) {
+      for (int corner = 0; corner < 3; ++corner) {
+        const std::uint32_t vertex = target.corners[3 * hit->triangle + static_cast<std::uint32_t>(corner)];
+        b += static_cast<double>(hit->weights[corner]) * radiosity(snapshot, vertex, with_ambient);
+      }
+    }
+    answers[k] = b;
+  }
+  return answers;
+}
+
+std::string probeCsv(std::span<const Probe> probes, std::span<const std::optional<glm::dvec3>> answers) {
+  std::string text = "x,y,z,nx,ny,nz,B_r,B_g,B_b\n";
+  const auto append = [&](const auto& v) {
+    text += shortest(v.x) + "," + shortest(v.y) + "," + shortest(v.z);
+  };
+  for (std::size_t k = 0; k < probes.size(); ++k) {
+    append(probes[k].position);
+    text += ",";
+    append(probes[k].normal);
+    text += ",";
+    if (answers[k]) {
+      append(glm::vec3(*answers[k]));
+    } else {
+      text += ",,";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace unshot

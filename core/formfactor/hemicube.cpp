@@ -1,0 +1,257 @@
+// The hemicube method, pixels counted: F from a patch to every element at once (Cohen and Greenberg 1985).
+//
+// A picture is taken from one point, as if all of the patch's light left there. Its error grows with the patch's size over
+// the distance to what it sees, so a patch is split, node by node of its tree and below, while a stated share of its view is
+// nearer than a stated multiple of its size, down to a floor: next to an edge that two surfaces share no refinement of a
+// single sample helps. Emitters are split further, while a part holds a fair share of all emitted power, since everything sees
+// the edges of its shadow. Each picture is turned about the
+// normal by its own angle, so that the pixels' grid leaves no pattern.
+//
+// Known error: an element smaller than a pixel gets nothing from one picture and too much from another; what is left next to
+// shared edges is a few percent at the floor (tests/analytic says how much).
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "base/random.h"
+#include "formfactor/hemicube_picture.h"
+#include "formfactor/methods.h"
+#include "formfactor/regions.h"
+#include "mesh/grid.h"
+
+namespace unshot {
+namespace {
+
+// A region is split while more than kNearShare of its view is nearer than its size / fraction.
+static double kNearShare = getenv("NS")?atof(getenv("NS")):0.02;
+static double kSplitFraction = getenv("SF")?atof(getenv("SF")):0.5;
+static double kEmitterSplitFraction = getenv("EF")?atof(getenv("EF")):0.125;
+// A region with more than this share of the power that a channel emits counts as an emitter here: there are at most a few
+// hundred such regions, whatever the scene.
+constexpr double kEmitterShare = 1.0 / 256;
+// A region may be split this many times below its patch, and at least once below the cells.
+static int kSplits = getenv("SP")?atoi(getenv("SP")):3;
+static std::uint32_t kResolution = getenv("RS")?atoi(getenv("RS")):128;
+constexpr std::uint32_t kEmitterResolution = 256;
+
+// What the pixel loop needs of a surface, together in memory.
+struct SurfaceLookup {
+  std::uint32_t nu, nv, first_cell;
+  std::uint32_t first_element[2];  // kNone: that side has none
+};
+
+class Hemicube final : public FormFactorMethod {
+ public:
+  Hemicube(const FormFactorSetup& setup)
+      : mesh_(*setup.mesh), picture_(setup.gl(), mesh_), seed_(setup.seed), resolution_(setup.hemicube_resolution) {
+    for (const Surface& s : mesh_.surfaces) {
+      SurfaceLookup lookup{s.nu, s.nv, s.first_cell, {kNone, kNone}};
+      for (int back = 0; back < 2; ++back) {
+        if (s.side[back] != kNone) lookup.first_element[back] = mesh_.sides[s.side[back]].first_element;
+      }
+      lookups_.push_back(lookup);
+    }
+    for (std::uint32_t q = 0; q < mesh_.patch_count; ++q) {
+      emitted_ += mesh_.patch_area[q] * mesh_.sides[mesh_.patch_side[q]].emission;
+    }
+    fillCells();
+    received_.assign(mesh_.element_count, 0.0);
+  }
+
+  ReceiverKind receiverKind() const override { return ReceiverKind::kElements; }
+  std::uint64_t drawn() const override { return drawn_; }
+
+  Column column(std::uint32_t q) override {
+    const std::uint32_t side_index = mesh_.patch_side[q];
+    const Side& side = mesh_.sides[side_index];
+    begin();
+    const Region whole = regionOfPatch(mesh_, side.surface, q - side.first_patch);
+    const Node& node = mesh_.nodes[whole.node];
+    const std::uint32_t cells = std::max(node.u1 - node.u0, node.v1 - node.v0);
+    const int splits = std::max(kSplits, static_cast<int>(std::ceil(std::log2(cells))) + 1);
+    shoot(whole, side, splits, 1 / whole.area);
+    Column out;
+    takeReceived([&](std::uint32_t e, double f) {
+      out.receiver.push_back(e);
+      out.k.push_back(static_cast<float>(f * mesh_.patch_area[q] / mesh_.element_area[e]));
+    });
+    out.escape = escape_;
+    closeColumn(q, out);
+    return out;
+  }
+
+  Row row(std::uint32_t v) override {
+    const Side& side = mesh_.sides[mesh_.element_side[v]];
+    begin();
+    const ElementShape& shape = mesh_.shapes[mesh_.surfaces[side.surface].elements.first + v - side.first_element];
+    Region point;
+    point.surface = side.surface;
+    point.area = mesh_.element_area[v];
+    point.sample = mesh_.surfaces[side.surface].chart(shape.centre);
+    shoot(point, side, 0, 1 / point.area);
+    std::vector<double> per_patch(mesh_.patch_count, 0.0);
+    takeReceived([&](std::uint32_t e, double f) { per_patch[mesh_.element_patch[e]] += f; });
+    Row out;
+    double sum = 0;
+    for (std::uint32_t q = 0; q < mesh_.patch_count; ++q) {
+      if (per_patch[q] == 0) continue;
+      out.source.push_back(q);
+      out.k.push_back(static_cast<float>(per_patch[q]));
+      sum += static_cast<double>(out.k.back());
+    }
+    out.escape = 1 - sum;
+    return out;
+  }
+
+ private:
+  // Cells without area border on the outline; rounding can put a pixel there, which then belongs to the nearest cell that
+  // has an element. Cells cut by contacts hold several elements; their pixels ask the pieces.
+  void fillCells() {
+    cell_element_.resize(mesh_.cells.size());
+    for (std::size_t c = 0; c < mesh_.cells.size(); ++c) cell_element_[c] = mesh_.cells[c].element;
+    for (const SurfaceLookup& s : lookups_) {
+      std::vector<std::uint32_t> border;
+      for (std::uint32_t c = 0; c < s.nu * s.nv; ++c) {
+        if (cell_element_[s.first_cell + c] != kNone) border.push_back(c);
+      }
+      if (border.size() == std::size_t{s.nu} * s.nv) continue;
+      for (std::size_t k = 0; k < border.size(); ++k) {
+        const std::uint32_t c = border[k], i = c % s.nu, j = c / s.nu;
+        const auto spread = [&](bool possible, std::uint32_t other) {
+          if (!possible || cell_element_[s.first_cell + other] != kNone) return;
+          const std::uint32_t own = cell_element_[s.first_cell + c];
+          cell_element_[s.first_cell + other] = own != kMixed ? own : mesh_.pieces[mesh_.cells[s.first_cell + c].pieces.first].element;
+          border.push_back(other);
+        };
+        spread(i > 0, c - 1);
+        spread(i + 1 < s.nu, c + 1);
+        spread(j > 0, c - s.nu);
+        spread(j + 1 < s.nv, c + s.nu);
+      }
+    }
+  }
+
+  void begin() {
+    escape_ = 0;
+    touched_.clear();
+  }
+
+  template <class F>
+  void takeReceived(F&& f) {
+    std::sort(touched_.begin(), touched_.end());
+    for (const std::uint32_t e : touched_) {
+      f(e, received_[e]);
+      received_[e] = 0;
+    }
+  }
+
+  // Rounding of the kept floats goes to the defect, so that energy adds up to the last digit kept.
+  void closeColumn(std::uint32_t q, Column& column) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < column.k.size(); ++i) {
+      sum += static_cast<double>(column.k[i]) * mesh_.element_area[column.receiver[i]] / mesh_.patch_area[q];
+    }
+    column.defect = 1 - column.escape - sum;
+    if (column.receiver.size() * 2 <= mesh_.element_count) {
+      column.receiver.shrink_to_fit();
+      column.k.shrink_to_fit();
+      return;
+    }
+    std::vector<float> dense(mesh_.element_count, 0.0f);
+    for (std::size_t i = 0; i < column.k.size(); ++i) dense[column.receiver[i]] = column.k[i];
+    column.k = std::move(dense);
+    column.receiver = {};
+  }
+
+  const std::vector<double>& deltas(HemicubeLayout layout) {
+    for (const auto& [resolution, values] : deltas_) {
+      if (resolution == layout.resolution) return values;
+    }
+    return deltas_.emplace_back(layout.resolution, deltaFormFactors(layout)).second;
+  }
+
+  HemicubeFrame frameOf(const Region& region, const Side& side) const {
+    const Surface& surface = mesh_.surfaces[region.surface];
+    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+    const std::uint64_t hash =
+        mixBits(mixBits(mixBits(seed_ ^ (region.surface * 2 + side.back)) ^ bits(region.sample.x)) ^ bits(region.sample.y));
+    const double angle = unitInterval(hash) * std::numbers::pi / 2;
+    HemicubeFrame frame;
+    frame.eye = surface.point(region.sample);
+    frame.normal = side.normal;
+    frame.right = std::cos(angle) * surface.axis_u + std::sin(angle) * surface.axis_v;
+    frame.own_surface = region.surface;
+    frame.near_distance = 1e-3 * std::sqrt(region.area);
+    return frame;
+  }
+
+  bool emitsMuch(const Region& region, const Side& side) const {
+    for (int c = 0; c < 3; ++c) {
+      if (region.area * side.emission[c] > kEmitterShare * emitted_[c]) return true;
+    }
+    return false;
+  }
+
+  // Shoots from the region or, where its view is too near for one point, from its parts. Adds share = area * per_area in all.
+  void shoot(const Region& region, const Side& side, int splits, double per_area) {
+    const bool emits = emitsMuch(region, side);
+    HemicubeLayout layout{resolution_ != 0 ? resolution_ : (emits ? kEmitterResolution : kResolution)};
+    const std::vector<double>& delta = deltas(layout);
+    const HemicubePicture::Result seen = picture_.draw(frameOf(region, side), layout);
+    ++drawn_;
+    if (splits > 0) {
+      const double limit = std::sqrt(region.area) / (emits ? kEmitterSplitFraction : kSplitFraction) / seen.far_distance;
+      double near = 0;
+      for (std::size_t k = 0; k < delta.size(); ++k) near += static_cast<double>(seen.distance[k]) < limit ? delta[k] : 0.0;
+      if (near > kNearShare) {
+        for (const Region& part : partsOf(mesh_, region)) shoot(part, side, splits - 1, per_area);
+        return;
+      }
+    }
+    count(seen, delta, region.area * per_area);
+  }
+
+  void count(const HemicubePicture::Result& seen, const std::vector<double>& delta, double share) {
+    for (std::size_t k = 0; k < delta.size(); ++k) {
+      const Item item = seen.items[k];
+      if (item.surface_side == kNone) {
+        escape_ += share * delta[k];
+        continue;
+      }
+      const SurfaceLookup& s = lookups_[item.surface_side >> 1];
+      const std::uint32_t first = s.first_element[item.surface_side & 1];
+      if (first == kNone) continue;  // an unlit side cannot be seen; if rounding says so, the column's defect tells
+      const std::uint32_t i = (item.chart & 0xffffu) * s.nu >> 16, j = (item.chart >> 16) * s.nv >> 16;
+      std::uint32_t local = cell_element_[s.first_cell + j * s.nu + i];
+      if (local == kMixed) {
+        const Surface& surface = mesh_.surfaces[item.surface_side >> 1];
+        const glm::dvec2 unit((item.chart & 0xffffu) + 0.5, (item.chart >> 16) + 0.5);
+        local = elementAt(mesh_, surface, unit / 65536.0 * surface.extent);
+      }
+      const std::uint32_t e = first + local;
+      if (received_[e] == 0) touched_.push_back(e);
+      received_[e] += share * delta[k];
+    }
+  }
+
+  const Mesh& mesh_;
+  HemicubePicture picture_;
+  std::uint64_t seed_;
+  std::uint32_t resolution_;
+  glm::dvec3 emitted_{0.0};  // power of all patches, per channel [W]
+  std::vector<SurfaceLookup> lookups_;
+  std::vector<std::uint32_t> cell_element_;
+  std::vector<std::pair<std::uint32_t, std::vector<double>>> deltas_;
+  std::vector<double> received_;  // per element, of the column in work
+  std::vector<std::uint32_t> touched_;
+  double escape_ = 0;
+  std::uint64_t drawn_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<FormFactorMethod> makeHemicube(const FormFactorSetup& setup) { return std::make_unique<Hemicube>(setup); }
+
+}  // namespace unshot

@@ -1,0 +1,43 @@
+// The table of form-factor methods. A new method is its own file and a row here.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "base/choice.h"
+#include "formfactor/method.h"
+#include "mesh/mesh.h"
+
+namespace unshot {
+
+namespace gl {
+class Context;
+}
+
+/// What a method is made with. `gl` gives the context, current on the calling thread; called only by methods that draw.
+struct FormFactorSetup {
+  const Mesh* mesh = nullptr;
+  std::function<gl::Context&()> gl;
+  std::uint64_t seed = 1;
+  std::uint32_t hemicube_resolution = 0;  ///< pixels; 0: the method's own choice
+};
+
+struct FormFactorMethodRow {
+  ChoiceInfo info;
+  bool needs_gl = false;
+  std::unique_ptr<FormFactorMethod> (*make)(const FormFactorSetup&);
+  /// Empty where the method is right for the scene, else why its result would be wrong there.
+  std::string (*unsuited)(const Mesh&);
+};
+
+std::span<const FormFactorMethodRow> formFactorMethods();
+
+std::unique_ptr<FormFactorMethod> makeHemicube(const FormFactorSetup& setup);
+std::unique_ptr<FormFactorMethod> makeClosedForm(const FormFactorSetup& setup);
+
+/// Whether nothing can stand between any two points of the scene's lit sides: every surface has the whole scene on one side
+/// of its plane.
+bool nothingCanOcclude(const Mesh& mesh);
+
+}  // namespace unshot

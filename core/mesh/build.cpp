@@ -1,0 +1,215 @@
+#include "mesh/build.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "base/error.h"
+#include "base/point_tree.h"
+#include "mesh/contacts.h"
+#include "mesh/display.h"
+#include "mesh/grid.h"
+#include "mesh/surfaces.h"
+#include "mesh/weld.h"
+
+namespace unshot {
+namespace {
+
+// Patches are squares of so many cells that there are about a thousand of them: each then is a tenth of a room or less, below
+// which smaller sources bring no accuracy, while a pass over all of them stays short.
+std::uint32_t patchCells(double elements) {
+  std::uint32_t cells = 1;
+  while (cells < 16 && elements / (cells * cells) > 1000) cells *= 2;
+  return cells;
+}
+
+// A side is left out only if nothing of the scene lies in front of it: then no light reaches it and its own meets nothing.
+void makeSides(const Scene& scene, const MeshOptions& options, Mesh& mesh) {
+  std::vector<glm::dvec3> used;
+  used.reserve(mesh.triangles.size() * 3);
+  std::vector<char> seen(mesh.positions.size(), 0);
+  for (const ChartTriangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t.position) {
+      if (!seen[v]) used.push_back(mesh.positions[v]);
+      seen[v] = 1;
+    }
+  }
+  const PointTree tree(used);
+  const double margin = 2 * weldDistance(scene);
+  const auto seesSomething = [&](const Surface& surface, bool back) {
+    const glm::dvec3 normal = back ? -surface.normal : surface.normal;
+    return tree.anyInFront(normal, glm::dot(normal, surface.origin) + margin);
+  };
+  // A flat sheet sees nothing at all; it is kept whole, so that it can be shown.
+  const bool keep_all = std::none_of(mesh.surfaces.begin(), mesh.surfaces.end(), [&](const Surface& s) {
+    return seesSomething(s, false) || seesSomething(s, true);
+  });
+  for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
+    Surface& surface = mesh.surfaces[s];
+    for (int back = 0; back < 2; ++back) {
+      if (!keep_all && !seesSomething(surface, back)) continue;
+      Side side;
+      side.surface = s;
+      side.back = back;
+      side.normal = back ? -surface.normal : surface.normal;
+      side.reflectance = scene.materials[surface.material].reflectance;
+      if (!back || !options.emit_front_only) side.emission = scene.materials[surface.material].emission;
+      surface.side[back] = static_cast<std::uint32_t>(mesh.sides.size());
+      mesh.sides.push_back(side);
+      mesh.lit_area += surface.area;
+    }
+  }
+}
+
+int litSides(const Surface& s) { return (s.side[0] != kNone) + (s.side[1] != kNone); }
+
+std::uint32_t cellsAlong(double extent, double size) {
+  const double n = std::round(extent / size);
+  return n < 1 ? 1u : (n > 1e6 ? 1'000'000u : static_cast<std::uint32_t>(n));
+}
+
+double elementsOf(const Surface& s, double size) {
+  const double cells = static_cast<double>(cellsAlong(s.extent.x, size)) * cellsAlong(s.extent.y, size);
+  return litSides(s) * std::max(1.0, cells * s.area / (s.extent.x * s.extent.y));
+}
+
+using Contacts = std::vector<std::vector<ContactSegment>>;
+
+void gridAll(Mesh& mesh, const std::vector<double>& sizes, const Contacts& contacts, double tolerance) {
+  mesh.cells.clear();
+  mesh.pieces.clear();
+  mesh.piece_corners.clear();
+  mesh.nodes.clear();
+  mesh.patch_shapes.clear();
+  mesh.shapes.clear();
+  double elements = 0;
+  for (std::size_t s = 0; s < sizes.size(); ++s) elements += elementsOf(mesh.surfaces[s], sizes[s]);
+  if (elements > static_cast<double>(kMostElements)) {
+    throw Error(ErrorKind::kUsage,
+                "the mesh would have about " + std::to_string(static_cast<std::uint64_t>(elements)) +
+                    " elements; the most is " + std::to_string(kMostElements),
+                {}, "a larger --element-size, or --elements");
+  }
+  const std::uint32_t patch_cells = patchCells(elements);
+  for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
+    Surface& surface = mesh.surfaces[s];
+    if (litSides(surface) == 0) continue;
+    gridSurface(mesh, s, cellsAlong(surface.extent.x, sizes[s]), cellsAlong(surface.extent.y, sizes[s]), patch_cells,
+                contacts[s], tolerance);
+  }
+}
+
+double countElements(const Mesh& mesh) {
+  double count = 0;
+  for (const Surface& s : mesh.surfaces) count += static_cast<double>(litSides(s)) * s.elements.count;
+  return count;
+}
+
+// Sizes per surface whose estimated count is nearest to `wanted`: one size for all, but for the few surfaces that tip from
+// one whole number of cells to the next just there.
+std::vector<double> sizesFor(const Mesh& mesh, double wanted) {
+  const auto estimate = [&](double size) {
+    double sum = 0;
+    for (const Surface& s : mesh.surfaces) sum += elementsOf(s, size);
+    return sum;
+  };
+  double coarse = 2 * glm::length(mesh.bounds_max - mesh.bounds_min), fine = coarse;
+  while (estimate(fine) < wanted && fine > coarse * 1e-7) fine /= 2;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = std::sqrt(coarse * fine);
+    (estimate(middle) < wanted ? coarse : fine) = middle;
+  }
+  std::vector<double> sizes(mesh.surfaces.size(), coarse);
+  double sum = estimate(coarse);
+  for (std::size_t s = 0; s < sizes.size(); ++s) {
+    const double step = elementsOf(mesh.surfaces[s], fine) - elementsOf(mesh.surfaces[s], coarse);
+    if (std::abs(sum + step - wanted) > std::abs(sum - wanted)) continue;
+    sizes[s] = fine;
+    sum += step;
+  }
+  return sizes;
+}
+
+void gridForCount(Mesh& mesh, double wanted, const Contacts& contacts, double tolerance) {
+  double asked = wanted, best_error = INFINITY;
+  std::vector<double> best;
+  // Clipped and joined cells make the count differ from the estimate by some percent; a few corrections close the gap.
+  for (int attempt = 0; attempt < 6; ++attempt) {
+    const std::vector<double> sizes = sizesFor(mesh, asked);
+    gridAll(mesh, sizes, contacts, tolerance);
+    const double error = std::abs(countElements(mesh) / wanted - 1);
+    if (error < best_error) {
+      best_error = error;
+      best = sizes;
+    }
+    if (error < 0.03) break;
+    asked *= wanted / countElements(mesh);
+  }
+  if (std::abs(countElements(mesh) / wanted - 1) > best_error) gridAll(mesh, best, contacts, tolerance);
+  if (best_error > 0.1) {
+    mesh.diagnostics.push_back({Severity::kNote, "element-count",
+                                std::to_string(static_cast<std::uint64_t>(wanted)) + " elements were asked for, the mesh has " +
+                                    std::to_string(static_cast<std::uint64_t>(countElements(mesh))) +
+                                    ": each of the " + std::to_string(mesh.sides.size()) +
+                                    " lit surface sides needs at least one",
+                                {}, {}});
+  }
+}
+
+void numberElements(Mesh& mesh) {
+  for (std::uint32_t k = 0; k < mesh.sides.size(); ++k) {
+    Side& side = mesh.sides[k];
+    const Surface& surface = mesh.surfaces[side.surface];
+    side.first_element = mesh.element_count;
+    side.first_patch = mesh.patch_count;
+    mesh.element_count += surface.elements.count;
+    mesh.patch_count += surface.patches.count;
+    mesh.patch_side.resize(mesh.patch_count, k);
+    mesh.patch_area.resize(mesh.patch_count, 0.0);
+    for (std::uint32_t e = 0; e < surface.elements.count; ++e) {
+      const ElementShape& shape = mesh.shapes[surface.elements.first + e];
+      mesh.element_side.push_back(k);
+      mesh.element_area.push_back(shape.area);
+      mesh.element_patch.push_back(side.first_patch + shape.patch);
+      mesh.patch_area[side.first_patch + shape.patch] += shape.area;
+    }
+  }
+}
+
+}  // namespace
+
+Mesh buildMesh(const Scene& scene, const MeshOptions& options) {
+  if (options.elements && options.element_size) {
+    throw Error(ErrorKind::kUsage, "--elements and --element-size exclude each other");
+  }
+  if ((options.elements && *options.elements == 0) ||
+      (options.element_size && !(*options.element_size > 0 && std::isfinite(*options.element_size)))) {
+    throw Error(ErrorKind::kUsage, "the number or the size of elements must be above zero");
+  }
+  Mesh mesh;
+  mesh.frame_origin = scene.frame_origin;
+  mesh.bounds_min = scene.bounds_min;
+  mesh.bounds_max = scene.bounds_max;
+  mesh.materials = scene.materials;
+  const SurfaceTopology topology = makeSurfaces(scene, weld(scene), mesh);
+  if (mesh.surfaces.empty()) {
+    throw Error(ErrorKind::kInput, "no face of the scene has any area", scene.path.string(), "unshot check on the scene");
+  }
+  makeSides(scene, options, mesh);
+  const double tolerance = weldDistance(scene);
+  const Contacts contacts = findContacts(mesh, topology.edges, 2 * tolerance);
+  if (options.elements) {
+    gridForCount(mesh, static_cast<double>(*options.elements), contacts, tolerance);
+  } else {
+    const double size = options.element_size.value_or(std::sqrt(mesh.lit_area / static_cast<double>(kDefaultElements)));
+    if (!mesh.sides.empty()) {
+      gridAll(mesh, std::vector<double>(mesh.surfaces.size(), size), contacts, tolerance);
+    }
+  }
+  numberElements(mesh);
+  if (mesh.element_count > 0) mesh.element_size = std::sqrt(mesh.lit_area / mesh.element_count);
+  makeDisplay(mesh, topology.smooth_pairs, tolerance);
+  return mesh;
+}
+
+}  // namespace unshot

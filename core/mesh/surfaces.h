@@ -1,0 +1,35 @@
+// Surfaces: connected coplanar polygons of one material, each with a chart; and which surfaces meet smoothly.
+#pragma once
+
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "mesh/weld.h"
+#include "scene/scene.h"
+
+namespace unshot {
+
+/// Two surfaces that meet smoothly along an edge, so that vertices on it are shared. `flipped`: their windings disagree,
+/// the front of one continues in the back of the other.
+struct SmoothPair {
+  std::uint32_t a = 0, b = 0;
+  bool flipped = false;
+};
+
+/// An edge of a polygon of the scene and the surface it belongs to; an edge of n polygons stands n times.
+struct SurfaceEdge {
+  std::uint32_t a = 0, b = 0;  ///< in Mesh::positions
+  std::uint32_t surface = 0;
+};
+
+struct SurfaceTopology {
+  std::vector<SmoothPair> smooth_pairs;
+  std::vector<SurfaceEdge> edges;
+};
+
+/// Fills mesh.surfaces (material, chart, area, triangles), mesh.triangles and mesh.positions.
+/// Polygons are joined only across edges that exactly two polygons share: where a third stands on the edge (a wall on a
+/// floor), light on one side is not light on the other.
+SurfaceTopology makeSurfaces(const Scene& scene, const WeldedScene& welded, Mesh& mesh);
+
+}  // namespace unshot

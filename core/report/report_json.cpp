@@ -1,0 +1,123 @@
+#include "report/report_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace unshot {
+namespace {
+
+// Keeps the fields in the order in which they are written here.
+using Json = nlohmann::ordered_json;
+
+Json jsonOf(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
+
+Json jsonOf(const SceneFigures& figures, const std::filesystem::path& path, const std::string& name) {
+  return {{"path", path.string()},          {"name", name},
+          {"faces", figures.faces},         {"polygons", figures.polygons},
+          {"triangles", figures.triangles}, {"materials", figures.materials},
+          {"emitters", figures.emitters},   {"extent", jsonOf(figures.extent)},
+          {"area", figures.area},           {"emitter_area", figures.emitter_area},
+          {"closed", figures.closed()},     {"open_edges", figures.open_edges}};
+}
+
+Json jsonOf(const Diagnostics& diagnostics) {
+  Json list = Json::array();
+  for (const Diagnostic& d : diagnostics) {
+    list.push_back({{"severity", d.severity == Severity::kWarning ? "warning" : "note"},
+                    {"code", d.code},
+                    {"message", d.message},
+                    {"where", d.where},
+                    {"advice", d.advice}});
+  }
+  return list;
+}
+
+Json jsonOf(const std::vector<PlanDecision>& plan) {
+  Json list = Json::array();
+  for (const PlanDecision& decision : plan) {
+    list.push_back({{"what", decision.what}, {"why", decision.why}, {"saving", decision.saving}});
+  }
+  return list;
+}
+
+Json jsonOf(const std::optional<GlRecord>& gl) {
+  if (!gl) return nullptr;
+  return {{"provider", gl->provider},
+          {"renderer", gl->renderer},
+          {"vendor", gl->vendor},
+          {"version", gl->version},
+          {"hardware", gl->hardware}};
+}
+
+Json jsonOf(const EnergyBalance& energy) {
+  return {{"emitted", energy.emitted},
+          {"absorbed", energy.absorbed},
+          {"escaped", energy.escaped},
+          {"unshot", energy.unshot},
+          {"closure_defect", energy.closure_defect},
+          {"residual", energy.residual()}};
+}
+
+Json jsonOf(const std::vector<HistoryEntry>& history) {
+  Json list = Json::array();
+  for (const HistoryEntry& entry : history) {
+    const Measures& m = entry.measures;
+    list.push_back({{"seconds", m.seconds},
+                    {"cpu_seconds", m.cpu_seconds},
+                    {"rows", m.rows},
+                    {"shots", m.shots},
+                    {"unshot", m.unshot_fraction},
+                    {"bounds", {{"lower", nullptr}, {"upper", nullptr}}}});
+  }
+  return list;
+}
+
+std::string textOf(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string reportJson(const RunRecord& record) {
+  const Counts& counts = record.counts;
+  const PhaseSeconds& seconds = record.seconds;
+  return textOf({{"program", {{"name", "unshot"}, {"version", UNSHOT_VERSION}}},
+                 {"scene", jsonOf(record.scene, record.scene_path, record.scene_name)},
+                 {"diagnostics", jsonOf(record.diagnostics)},
+                 {"plan", jsonOf(record.plan)},
+                 {"mode", record.mode},
+                 {"form_factors", record.form_factors},
+                 {"gl", jsonOf(record.gl)},
+                 {"counts",
+                  {{"surfaces", counts.surfaces},
+                   {"patches", counts.patches},
+                   {"elements", counts.elements},
+                   {"vertices", counts.vertices},
+                   {"rows", counts.rows},
+                   {"shots", counts.shots}}},
+                 {"seconds",
+                  {{"load", seconds.load},
+                   {"mesh", seconds.mesh},
+                   {"plan", seconds.plan},
+                   {"solve", seconds.solve},
+                   {"cpu_solve", seconds.cpu_solve}}},
+                 {"unshot_fraction", record.measures.unshot_fraction},
+                 {"errors",
+                  {{"solver_lower", nullptr},
+                   {"solver_upper", nullptr},
+                   {"form_factor", nullptr},
+                   {"discretisation", nullptr}}},
+                 {"energy", jsonOf(record.energy)},
+                 {"peak_memory_bytes", record.peak_memory_bytes},
+                 {"kept_bytes", record.kept_bytes},
+                 {"stopped_by", record.stopped_by},
+                 {"history", jsonOf(record.history)}});
+}
+
+std::string checkJson(const Scene& scene, const Diagnostics& diagnostics,
+                      const std::vector<PlanDecision>& plan) {
+  return textOf({{"scene", jsonOf(figuresOf(scene), scene.path, scene.name)},
+                 {"diagnostics", jsonOf(diagnostics)},
+                 {"plan", jsonOf(plan)}});
+}
+
+}  // namespace unshot

@@ -1,0 +1,61 @@
+#include "session/fields.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+namespace unshot {
+namespace {
+
+// Values of elements, interpolated at the mesh's vertices. `at(e)` is element e's value.
+template <class F>
+std::vector<glm::vec3> atVertices(const Mesh& mesh, F&& at) {
+  const SparseRows& rows = mesh.vertex_from_elements;
+  std::vector<glm::vec3> out(mesh.vertices.size());
+  for (std::size_t v = 0; v < out.size(); ++v) {
+    glm::dvec3 sum(0.0);
+    for (std::uint32_t k = rows.start[v]; k < rows.start[v + 1]; ++k) {
+      sum += static_cast<double>(rows.weight[k]) * at(rows.index[k]);
+    }
+    out[v] = glm::vec3(sum);
+  }
+  return out;
+}
+
+// Mean over each element's display triangles of a field on vertices.
+std::vector<glm::vec3> meanOverElements(const Mesh& mesh, const std::vector<glm::dvec3>& field) {
+  std::vector<glm::dvec3> sum(mesh.element_count, glm::dvec3(0.0));
+  std::vector<double> area(mesh.element_count, 0.0);
+  for (std::size_t t = 0; t < mesh.triangle_element.size(); ++t) {
+    const std::uint32_t* corner = &mesh.triangle_vertices[3 * t];
+    const glm::dvec3 p0(mesh.vertices[corner[0]].position), p1(mesh.vertices[corner[1]].position),
+        p2(mesh.vertices[corner[2]].position);
+    const double a = glm::length(glm::cross(p1 - p0, p2 - p0)) / 2;
+    area[mesh.triangle_element[t]] += a;
+    sum[mesh.triangle_element[t]] += a / 3 * (field[corner[0]] + field[corner[1]] + field[corner[2]]);
+  }
+  std::vector<glm::vec3> out(mesh.element_count);
+  for (std::size_t e = 0; e < out.size(); ++e) out[e] = area[e] > 0 ? glm::vec3(sum[e] / area[e]) : glm::vec3(0.0f);
+  return out;
+}
+
+}  // namespace
+
+Snapshot makeFields(std::shared_ptr<const Mesh> mesh_in, const Transport& transport, const RadiosityState& state,
+                    const AmbientTerm& ambient) {
+  Snapshot out;
+  out.mesh = std::move(mesh_in);
+  const Mesh& mesh = *out.mesh;
+  if (transport.receivers().kind == ReceiverKind::kElements) {
+    for (const glm::dvec3& h : state.irradiance()) out.element_irradiance.emplace_back(h);
+    out.irradiance = atVertices(mesh, [&](std::uint32_t e) { return state.irradiance()[e]; });
+  } else {
+    for (const glm::dvec3& h : state.irradiance()) out.irradiance.emplace_back(h);
+    out.element_irradiance = meanOverElements(mesh, state.irradiance());
+  }
+  const std::vector<glm::dvec3> estimate = ambient.values(state);
+  out.ambient = atVertices(mesh, [&](std::uint32_t e) { return estimate[mesh.element_patch[e]]; });
+  out.unshot = atVertices(mesh, [&](std::uint32_t e) { return state.unshot()[mesh.element_patch[e]]; });
+  return out;
+}
+
+}  // namespace unshot

@@ -1,0 +1,226 @@
+#include "session/solve.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/clock.h"
+#include "formfactor/methods.h"
+#include "gl/context.h"
+#include "mesh/build.h"
+#include "session/fields.h"
+#include "session/plan.h"
+#include "solver/ambient.h"
+#include "solver/modes.h"
+
+namespace unshot {
+namespace {
+
+// A mode that takes this many passes over all patches without losing this share of the unshot power will not arrive.
+constexpr std::uint64_t kStagnationPasses = 20;
+constexpr double kStagnationShare = 1e-4;
+
+std::vector<glm::dvec3> perPatch(const Mesh& mesh, glm::dvec3 Side::*member) {
+  std::vector<glm::dvec3> out;
+  for (const std::uint32_t side : mesh.patch_side) out.push_back(mesh.sides[side].*member);
+  return out;
+}
+
+}  // namespace
+
+struct Solve::Impl {
+  SolveOptions options;
+  Scene scene;
+  std::shared_ptr<Mesh> mesh;
+  std::string mode_key, form_factors_key;
+  std::vector<PlanDecision> plan;
+  Diagnostics diagnostics;
+  PhaseSeconds seconds;
+  double cpu_start = 0, solve_start = 0, cpu_setup = 0;
+
+  std::unique_ptr<Transport> transport;
+  std::unique_ptr<RadiosityState> state;
+  std::unique_ptr<IterationMode> mode;
+  std::unique_ptr<AmbientTerm> ambient;
+
+  SolveState progress_state = SolveState::kRunning;
+  std::string stopped_by;
+  Measures measures;
+  std::vector<HistoryEntry> history;
+  double watched_fraction = 1;
+  std::uint64_t watched_shots = 0;
+
+  Impl(Scene scene_in, SolveOptions options_in) : options(std::move(options_in)), scene(std::move(scene_in)) {}
+
+  void prepare(const std::function<gl::Context&()>& gl);
+  void makeTransport(const std::function<gl::Context&()>& gl);
+  void stop(SolveState how, std::string why);
+  void measure();
+  void checkLimits();
+  void checkStagnation();
+};
+
+void Solve::Impl::prepare(const std::function<gl::Context&()>& gl) {
+  if (!(options.error > 0 && options.error < 1)) {
+    throw Error(ErrorKind::kUsage, "the error asked for must lie between 0 and 1", {}, "--error 0.01");
+  }
+  const double start = wallSeconds();
+  cpu_start = cpuSeconds();
+  mesh = std::make_shared<Mesh>(buildMesh(scene, {options.elements, options.element_size, options.emit_front_only}));
+  seconds.mesh = wallSeconds() - start;
+
+  const double plan_start = wallSeconds();
+  mode_key = options.mode == "auto" ? "southwell" : options.mode;
+  form_factors_key = options.form_factors;
+  if (form_factors_key == "auto") form_factors_key = nothingCanOcclude(*mesh) ? "closed-form" : "hemicube";
+  plan = makePlan(scene, *mesh, form_factors_key);
+  diagnostics = scene.diagnostics;
+  diagnostics.insert(diagnostics.end(), mesh->diagnostics.begin(), mesh->diagnostics.end());
+  seconds.plan = wallSeconds() - plan_start;
+
+  mode = findChoice(iterationModes(), mode_key, "iteration mode").make();
+  const double cpu_before_setup = cpuSeconds();
+  makeTransport(gl);
+  cpu_setup = cpuSeconds() - cpu_before_setup;
+  state = std::make_unique<RadiosityState>(*transport, perPatch(*mesh, &Side::emission), perPatch(*mesh, &Side::reflectance));
+  ambient = std::make_unique<AmbientTerm>(mesh->patch_count);
+  solve_start = wallSeconds();
+  if (state->emittedPower() <= 0) {
+    measures.unshot_fraction = 0;
+    stop(SolveState::kConverged, "no light");
+  }
+  measure();
+  history.push_back({measures});
+}
+
+void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl) {
+  const FormFactorMethodRow& row = findChoice(formFactorMethods(), form_factors_key, "form-factor method");
+  const std::string unsuited = row.unsuited(*mesh);
+  if (!unsuited.empty()) diagnostics.push_back({Severity::kWarning, "unsuited-method", unsuited, {}, "--form-factors auto"});
+  FormFactorSetup setup;
+  setup.mesh = mesh.get();
+  setup.seed = options.seed;
+  setup.hemicube_resolution = options.hemicube_resolution;
+  setup.gl = [&gl]() -> gl::Context& {
+    gl::Context& context = gl();
+    context.makeCurrent();
+    return context;
+  };
+  std::unique_ptr<FormFactorMethod> method = row.make(setup);
+  Receivers receivers = makeReceivers(*mesh, method->receiverKind());
+  transport = std::make_unique<Transport>(std::move(method), std::move(receivers), mesh->patch_area, options.kept_bytes);
+}
+
+void Solve::Impl::stop(SolveState how, std::string why) {
+  progress_state = how;
+  stopped_by = std::move(why);
+}
+
+void Solve::Impl::measure() {
+  measures.seconds = wallSeconds() - solve_start;
+  measures.cpu_seconds = cpuSeconds() - cpu_start - cpu_setup;
+  measures.rows = transport->computed();
+  if (state->emittedPower() > 0) measures.unshot_fraction = state->unshotPower() / state->emittedPower();
+  seconds.solve = measures.seconds;
+  seconds.cpu_solve = measures.cpu_seconds;
+}
+
+void Solve::Impl::checkLimits() {
+  if (!std::isfinite(measures.unshot_fraction)) {
+    stop(SolveState::kFailed, "a value is no longer finite");
+  } else if (measures.unshot_fraction <= options.error) {
+    stop(SolveState::kConverged, "error");
+  } else if (options.max_shots && measures.shots >= *options.max_shots) {
+    stop(SolveState::kLimit, "max_shots");
+  } else if (options.max_seconds && measures.seconds >= *options.max_seconds) {
+    stop(SolveState::kLimit, "max_seconds");
+  }
+}
+
+void Solve::Impl::checkStagnation() {
+  if (measures.shots - watched_shots < kStagnationPasses * mesh->patch_count) return;
+  if (measures.unshot_fraction > (1 - kStagnationShare) * watched_fraction) {
+    stop(SolveState::kFailed, "stagnation: the unshot power does not fall; do all walls reflect everything?");
+  }
+  watched_fraction = measures.unshot_fraction;
+  watched_shots = measures.shots;
+}
+
+Solve::Solve(Scene scene, SolveOptions options, std::function<gl::Context&()> gl)
+    : impl_(std::make_unique<Impl>(std::move(scene), std::move(options))) {
+  impl_->prepare(gl);
+}
+
+Solve::~Solve() = default;
+
+void Solve::step() {
+  Impl& s = *impl_;
+  if (s.progress_state != SolveState::kRunning) return;
+  if (const auto shooter = s.mode->step(*s.state, *s.transport)) {
+    ++s.measures.shots;
+    s.ambient->sees(*shooter, *s.transport);
+  } else {
+    s.stop(SolveState::kConverged, "error");
+  }
+  s.measure();
+  if (s.progress_state == SolveState::kRunning) s.checkLimits();
+  if (s.progress_state == SolveState::kRunning) s.checkStagnation();
+  // A curve needs no more points than a plot has pixels: each is a hundredth further than the last.
+  const std::uint64_t last = s.history.back().measures.shots;
+  if (s.progress_state != SolveState::kRunning || s.measures.shots >= last + std::max<std::uint64_t>(1, last / 100)) {
+    s.history.push_back({s.measures});
+  }
+}
+
+SolveState Solve::state() const { return impl_->progress_state; }
+
+void Solve::interrupt() {
+  if (impl_->progress_state == SolveState::kRunning) impl_->stop(SolveState::kInterrupted, "interrupted");
+}
+
+Snapshot Solve::snapshot() const {
+  const Impl& s = *impl_;
+  Snapshot out = makeFields(s.mesh, *s.transport, *s.state, *s.ambient);
+  out.measures = s.measures;
+  return out;
+}
+
+const Measures& Solve::measures() const { return impl_->measures; }
+
+double Solve::progress() const {
+  const Impl& s = *impl_;
+  if (s.progress_state == SolveState::kConverged) return 1;
+  const double reached = std::log(std::max(s.measures.unshot_fraction, 1e-300)) / std::log(s.options.error);
+  return std::clamp(reached, 0.0, 1.0);
+}
+
+EnergyBalance Solve::energy() const {
+  const Impl& s = *impl_;
+  EnergyBalance out;
+  const Receivers& receivers = s.transport->receivers();
+  for (std::size_t v = 0; v < receivers.size(); ++v) {
+    const glm::dvec3 absorbed = receivers.area[v] * (1.0 - receivers.reflectance[v]) * s.state->irradiance()[v];
+    out.absorbed += absorbed.x + absorbed.y + absorbed.z;
+  }
+  for (std::size_t q = 0; q < s.state->patchCount(); ++q) {
+    const glm::dvec3 u = s.state->area()[q] * s.state->unshot()[q];
+    out.unshot += u.x + u.y + u.z;
+  }
+  out.emitted = s.state->emittedPower();
+  out.escaped = s.state->escapedPower();
+  out.closure_defect = s.state->defectPower();
+  return out;
+}
+
+const Scene& Solve::scene() const { return impl_->scene; }
+const Mesh& Solve::mesh() const { return *impl_->mesh; }
+const std::string& Solve::modeKey() const { return impl_->mode_key; }
+const std::string& Solve::formFactorsKey() const { return impl_->form_factors_key; }
+const std::vector<PlanDecision>& Solve::plan() const { return impl_->plan; }
+const Diagnostics& Solve::diagnostics() const { return impl_->diagnostics; }
+const std::vector<HistoryEntry>& Solve::history() const { return impl_->history; }
+const PhaseSeconds& Solve::seconds() const { return impl_->seconds; }
+std::size_t Solve::keptBytes() const { return impl_->transport->keptBytes(); }
+std::uint64_t Solve::drawn() const { return impl_->transport->drawn(); }
+const std::string& Solve::stoppedBy() const { return impl_->stopped_by; }
+
+}  // namespace unshot

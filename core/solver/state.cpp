@@ -1,0 +1,48 @@
+#include "solver/state.h"
+
+#include <cmath>
+
+namespace unshot {
+namespace {
+
+double sumOfChannels(const glm::dvec3& x) { return x.x + x.y + x.z; }
+
+}  // namespace
+
+RadiosityState::RadiosityState(const Transport& transport, std::vector<glm::dvec3> emission,
+                               std::vector<glm::dvec3> reflectance)
+    : transport_(transport),
+      emission_(std::move(emission)),
+      reflectance_(std::move(reflectance)),
+      shot_(emission_.size(), glm::dvec3(0.0)),
+      unshot_(emission_),
+      irradiance_(transport.receiverCount(), glm::dvec3(0.0)),
+      area_(transport.patchArea()) {
+  for (std::size_t q = 0; q < emission_.size(); ++q) emitted_power_ += area_[q] * sumOfChannels(emission_[q]);
+}
+
+void RadiosityState::shoot(std::uint32_t q, const glm::dvec3& d, const Column& column) {
+  const Receivers& receivers = transport_.receivers();
+  shot_[q] += d;
+  unshot_[q] -= d;
+  column.forEach([&](std::uint32_t v, double k) {
+    const glm::dvec3 received = k * d;
+    irradiance_[v] += received;
+    for (std::uint32_t s = receivers.start[v]; s < receivers.start[v + 1]; ++s) {
+      const PatchShare& share = receivers.shares[s];
+      unshot_[share.patch] += share.area / area_[share.patch] * reflectance_[share.patch] * received;
+    }
+  });
+  escaped_power_ += column.escape * area_[q] * sumOfChannels(d);
+  defect_power_ += column.defect * area_[q] * sumOfChannels(d);
+}
+
+double RadiosityState::unshotPower() const {
+  double sum = 0;
+  for (std::size_t q = 0; q < unshot_.size(); ++q) {
+    sum += area_[q] * (std::abs(unshot_[q].x) + std::abs(unshot_[q].y) + std::abs(unshot_[q].z));
+  }
+  return sum;
+}
+
+}  // namespace unshot
