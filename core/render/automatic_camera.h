@@ -48,6 +48,7 @@ struct ViewFigures {
   double seen = 0;      ///< area of the sides in view, of all
   double contrast = 0;  ///< spread of the light
   double lamps = 0;     ///< lamps in view
+  double backs = 0;     ///< of the covered pixels: back sides (lamps aside), seldom meant to be seen
   double blocked = 0;   ///< pixels with something right before the eye
 };
 
