@@ -114,9 +114,9 @@ int runSolve(const SolveRequest& request) {
   PictureMaker pictures(context, snapshot, request.picture);
   ExportSource source{.snapshot = snapshot,
                       .with_ambient = request.picture.ambient,
-                      .exposure = exposureOf(snapshot, request.picture.ambient),
-                      .picture = [&] { return pictures.display(); },
-                      .radiance = [&] { return pictures.radiance(); },
+                      .exposure = vertexExposure(snapshot, request.picture.ambient),
+                      .picture = [&]() -> const Image8& { return pictures.get().srgb; },
+                      .radiance = [&]() -> const ImageF& { return pictures.get().linear; },
                       .report = [&] { return reportJson(record()); },
                       .probes = probes,
                       .warn = [](const Diagnostic& d) { printDiagnostics(std::cerr, {d}); }};

@@ -42,19 +42,25 @@ void writeReport(const ExportSource& source, const std::filesystem::path& path) 
 
 std::span<const Exporter> exporters() {
   static constexpr std::array<Exporter, 5> kTable = {{
-      {{"png", "PNG picture", "the picture as displayed, 8 bits"}, ".png", true, writePngPicture},
+      {{"png", "PNG picture", "the picture as displayed, 8 bits"},
+       ".png",
+       PictureNeed::kDisplayed,
+       writePngPicture},
       {{"hdr", "Radiance HDR picture", "the picture as linear radiosity [W/m^2]"},
        ".hdr",
        true,
        writeHdrPicture},
-      {{"ply", "PLY solution", "the mesh with radiosity at its vertices"}, ".ply", false, writePly},
+      {{"ply", "PLY solution", "the mesh with radiosity at its vertices"},
+       ".ply",
+       PictureNeed::kNone,
+       writePly},
       {{"probe-out", "Probe values", "radiosity at the points of --probe, as CSV"},
        ".csv",
-       false,
+       PictureNeed::kNone,
        writeProbes},
       {{"report", "JSON report", "figures of the solve: counts, times, errors, energy, history"},
        ".json",
-       false,
+       PictureNeed::kNone,
        writeReport},
   }};
   return kTable;
