@@ -41,7 +41,7 @@ bool samePath(const std::filesystem::path& a, const std::filesystem::path& b) {
 
 bool SolveRequest::needsPicture() const {
   return std::any_of(outputs.begin(), outputs.end(),
-                     [](const Output& o) { return o.exporter->needs != PictureNeed::kNone; });
+                     [](const Output& o) { return o.exporter->needs != PictureNeed::kNoPicture; });
 }
 
 SolveArguments::SolveArguments(CLI::App& command) : outputs_(exporters().size()) {

@@ -29,7 +29,7 @@ std::string countText(std::uint64_t count) {
 std::string figureText(double value) {
   const double size = std::abs(value);
   if (size == 0) return "0";
-  if (!std::isfinite(value) || size < 1e-4 || size >= 1e7) return formatted("%.3g", value);
+  if (!std::isfinite(value) || size < 1e-4 || size >= 1e6) return formatted("%.3g", value);
   const int digits = std::clamp(2 - static_cast<int>(std::floor(std::log10(size))), 0, 6);
   char buffer[64];
   std::snprintf(buffer, sizeof buffer, "%.*f", digits, value);

@@ -29,14 +29,14 @@ struct ExportSource {
 };
 
 /// What an exporter wants of a picture.
-enum class PictureNeed { kNone, kDisplayed, kLinear };
+enum class PictureNeed { kNoPicture, kDisplayed, kLinear };
 
 struct Exporter {
   ChoiceInfo info;
   std::string_view ending;  ///< usual ending of the file's name, with its dot
-  PictureNeed needs = PictureNeed::kNone;
+  PictureNeed needs = PictureNeed::kNoPicture;
   /// Throws Error (kEnvironment where the file cannot be written, or what the source throws).
-  void (*write)(const ExportSource& source, const std::filesystem::path& path);
+  void (*write)(const ExportSource& source, const std::filesystem::path& path) = nullptr;
 };
 
 std::span<const Exporter> exporters();
