@@ -114,8 +114,8 @@ class RoomBuilder {
     const std::array<glm::dvec2, 4> corners = {
         glm::dvec2(0, 0), {surface.extent.x, 0}, surface.extent, {0, surface.extent.y}};
     for (const glm::dvec2& uv : corners) mesh.positions.push_back(surface.point(uv));
-    mesh.triangles.push_back({{corners[0], corners[1], corners[2]}, {first, first + 1, first + 2}});
-    mesh.triangles.push_back({{corners[0], corners[2], corners[3]}, {first, first + 2, first + 3}});
+    mesh.triangles.push_back({{corners[0], corners[1], corners[2]}, {first, first + 1, first + 2}, {}});
+    mesh.triangles.push_back({{corners[0], corners[2], corners[3]}, {first, first + 2, first + 3}, {}});
   }
 
   RoomOptions options_;
