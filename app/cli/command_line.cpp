@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/parse.h"
 #include "cli/commands.h"
 #include "exit_codes.h"
 
@@ -83,9 +84,11 @@ std::string messageOf(const CLI::ParseError& error) {
   const std::string name = text.substr(0, text.find(':'));
   if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
     const std::string extra = text.substr(text.rfind(": ") + 2);
-    const std::string first = extra.substr(0, extra.find(' '));
-    return first.starts_with('-') ? "there is no option '" + first + "'"
-                                  : "'" + first + "' is one argument too many";
+    // An unknown option leaves its value behind as well; the option is what to name.
+    for (const std::string_view word : splitParts(extra, ' ')) {
+      if (word.starts_with('-')) return "there is no option '" + std::string(word) + "'";
+    }
+    return "'" + extra.substr(0, extra.find(' ')) + "' is one argument too many";
   }
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
     return text.find("At Most") != std::string::npos ? name + " may be given only once"

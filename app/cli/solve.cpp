@@ -93,7 +93,9 @@ int runSolve(const SolveRequest& request) {
   // A picture needs GL: where there is none, that is said before the solve.
   if (request.needsPicture()) context.get();
   progress.phase("reading " + request.scene.string());
+  const double load_began = wallSeconds();
   Scene scene = readObj(request.scene);
+  const double load_seconds = wallSeconds() - load_began;
   progress.finish();
   printDiagnostics(std::cerr, scene.diagnostics);
   const std::size_t said = scene.diagnostics.size();
@@ -109,6 +111,7 @@ int runSolve(const SolveRequest& request) {
   const auto record = [&] {
     RunRecord r = recordOf(solve);
     r.gl = context.record();
+    r.seconds.load = load_seconds;
     return r;
   };
   PictureMaker pictures(context, snapshot, request.picture);

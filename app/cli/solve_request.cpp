@@ -33,8 +33,10 @@ Check emitText() {
 bool samePath(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code error;
   if (std::filesystem::equivalent(a, b, error)) return std::filesystem::is_regular_file(a, error);
-  return std::filesystem::weakly_canonical(a, error) == std::filesystem::weakly_canonical(b, error) &&
-         !std::filesystem::exists(a, error);
+  const auto canonical = [&](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
+  };
+  return canonical(a) == canonical(b) && !std::filesystem::exists(a, error);
 }
 
 }  // namespace
