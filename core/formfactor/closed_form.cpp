@@ -60,7 +60,7 @@ class ClosedForm final : public FormFactorMethod {
     const Side& side = mesh_.sides[mesh_.patch_side[q]];
     const Surface& surface = mesh_.surfaces[side.surface];
     const std::uint32_t local = q - side.first_patch;
-    const Region region = regionOfNode(mesh_, mesh_.patch_nodes[surface.patches.first + local]);
+    const Region region = regionOfPatch(mesh_, side.surface, local);
     const glm::dvec2 size = region.high - region.low;
     const auto add = [&](Ring ring) {
       if (side.back) std::reverse(ring.begin(), ring.end());
@@ -73,9 +73,9 @@ class ClosedForm final : public FormFactorMethod {
       return;
     }
     for (std::uint32_t c = surface.first_cell; c < surface.first_cell + surface.nu * surface.nv; ++c) {
-      const Cell& cell = mesh_.cells[c];
-      if (cell.element == kNone || mesh_.shapes[surface.elements.first + cell.element].patch != local) continue;
-      for (std::uint32_t p = cell.pieces.first; p < cell.pieces.end(); ++p) {
+      const Range pieces = mesh_.cells[c].pieces;
+      for (std::uint32_t p = pieces.first; p < pieces.end(); ++p) {
+        if (mesh_.shapes[surface.elements.first + mesh_.pieces[p].element].patch != local) continue;
         Ring ring;
         const Range corners = mesh_.pieces[p].corners;
         for (std::uint32_t k = corners.first; k < corners.end(); ++k) ring.push_back(surface.point(mesh_.piece_corners[k].uv));

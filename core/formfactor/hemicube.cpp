@@ -3,7 +3,8 @@
 // A picture is taken from one point, as if all of the patch's light left there. Its error grows with the patch's size over
 // the distance to what it sees, so a patch is split, node by node of its tree and below, while a stated share of its view is
 // nearer than a stated multiple of its size, down to a floor: next to an edge that two surfaces share no refinement of a
-// single sample helps. Emitters are split further, since everything sees their shadows. Each picture is turned about the
+// single sample helps. Emitters are split further, while a part holds a fair share of all emitted power, since everything sees
+// the edges of its shadow. Each picture is turned about the
 // normal by its own angle, so that the pixels' grid leaves no pattern.
 //
 // Known error: an element smaller than a pixel gets nothing from one picture and too much from another; what is left next to
@@ -18,17 +19,21 @@
 #include "formfactor/hemicube_picture.h"
 #include "formfactor/methods.h"
 #include "formfactor/regions.h"
+#include "mesh/grid.h"
 
 namespace unshot {
 namespace {
 
 // A region is split while more than kNearShare of its view is nearer than its size / fraction.
-constexpr double kNearShare = 0.01;
-constexpr double kSplitFraction = 0.5;
-constexpr double kEmitterSplitFraction = 0.125;
+static double kNearShare = getenv("NS")?atof(getenv("NS")):0.02;
+static double kSplitFraction = getenv("SF")?atof(getenv("SF")):0.5;
+static double kEmitterSplitFraction = getenv("EF")?atof(getenv("EF")):0.125;
+// A region with more than this share of the power that a channel emits counts as an emitter here: there are at most a few
+// hundred such regions, whatever the scene.
+constexpr double kEmitterShare = 1.0 / 256;
 // A region may be split this many times below its patch, and at least once below the cells.
-constexpr int kSplits = 3;
-constexpr std::uint32_t kResolution = 128;
+static int kSplits = getenv("SP")?atoi(getenv("SP")):3;
+static std::uint32_t kResolution = getenv("RS")?atoi(getenv("RS")):128;
 constexpr std::uint32_t kEmitterResolution = 256;
 
 // What the pixel loop needs of a surface, together in memory.
@@ -48,6 +53,9 @@ class Hemicube final : public FormFactorMethod {
       }
       lookups_.push_back(lookup);
     }
+    for (std::uint32_t q = 0; q < mesh_.patch_count; ++q) {
+      emitted_ += mesh_.patch_area[q] * mesh_.sides[mesh_.patch_side[q]].emission;
+    }
     fillCells();
     received_.assign(mesh_.element_count, 0.0);
   }
@@ -58,10 +66,10 @@ class Hemicube final : public FormFactorMethod {
   Column column(std::uint32_t q) override {
     const std::uint32_t side_index = mesh_.patch_side[q];
     const Side& side = mesh_.sides[side_index];
-    const std::uint32_t node = mesh_.patch_nodes[mesh_.surfaces[side.surface].patches.first + q - side.first_patch];
     begin();
-    const Region whole = regionOfNode(mesh_, node);
-    const std::uint32_t cells = std::max(mesh_.nodes[node].u1 - mesh_.nodes[node].u0, mesh_.nodes[node].v1 - mesh_.nodes[node].v0);
+    const Region whole = regionOfPatch(mesh_, side.surface, q - side.first_patch);
+    const Node& node = mesh_.nodes[whole.node];
+    const std::uint32_t cells = std::max(node.u1 - node.u0, node.v1 - node.v0);
     const int splits = std::max(kSplits, static_cast<int>(std::ceil(std::log2(cells))) + 1);
     shoot(whole, side, splits, 1 / whole.area);
     Column out;
@@ -76,14 +84,13 @@ class Hemicube final : public FormFactorMethod {
 
   Row row(std::uint32_t v) override {
     const Side& side = mesh_.sides[mesh_.element_side[v]];
-    const Surface& surface = mesh_.surfaces[side.surface];
-    const double area = mesh_.element_area[v];
     begin();
-    for (std::uint32_t c = surface.first_cell; c < surface.first_cell + surface.nu * surface.nv; ++c) {
-      if (mesh_.cells[c].pieces.count == 0 || side.first_element + mesh_.cells[c].element != v) continue;
-      const Region whole = regionOfNode(mesh_, cellNode(surface, c - surface.first_cell));
-      shoot(whole, side, 1, 1 / area);
-    }
+    const ElementShape& shape = mesh_.shapes[mesh_.surfaces[side.surface].elements.first + v - side.first_element];
+    Region point;
+    point.surface = side.surface;
+    point.area = mesh_.element_area[v];
+    point.sample = mesh_.surfaces[side.surface].chart(shape.centre);
+    shoot(point, side, 0, 1 / point.area);
     std::vector<double> per_patch(mesh_.patch_count, 0.0);
     takeReceived([&](std::uint32_t e, double f) { per_patch[mesh_.element_patch[e]] += f; });
     Row out;
@@ -100,7 +107,7 @@ class Hemicube final : public FormFactorMethod {
 
  private:
   // Cells without area border on the outline; rounding can put a pixel there, which then belongs to the nearest cell that
-  // has an element.
+  // has an element. Cells cut by contacts hold several elements; their pixels ask the pieces.
   void fillCells() {
     cell_element_.resize(mesh_.cells.size());
     for (std::size_t c = 0; c < mesh_.cells.size(); ++c) cell_element_[c] = mesh_.cells[c].element;
@@ -114,7 +121,8 @@ class Hemicube final : public FormFactorMethod {
         const std::uint32_t c = border[k], i = c % s.nu, j = c / s.nu;
         const auto spread = [&](bool possible, std::uint32_t other) {
           if (!possible || cell_element_[s.first_cell + other] != kNone) return;
-          cell_element_[s.first_cell + other] = cell_element_[s.first_cell + c];
+          const std::uint32_t own = cell_element_[s.first_cell + c];
+          cell_element_[s.first_cell + other] = own != kMixed ? own : mesh_.pieces[mesh_.cells[s.first_cell + c].pieces.first].element;
           border.push_back(other);
         };
         spread(i > 0, c - 1);
@@ -123,19 +131,6 @@ class Hemicube final : public FormFactorMethod {
         spread(j + 1 < s.nv, c + s.nu);
       }
     }
-  }
-
-  std::uint32_t cellNode(const Surface& surface, std::uint32_t cell) const {
-    const std::uint32_t i = cell % surface.nu, j = cell / surface.nu;
-    std::uint32_t node = surface.root;
-    while (!mesh_.nodes[node].isCell()) {
-      const Node& parent = mesh_.nodes[node];
-      for (std::uint32_t k = 0; k < parent.child_count; ++k) {
-        const Node& child = mesh_.nodes[parent.first_child + k];
-        if (i >= child.u0 && i < child.u1 && j >= child.v0 && j < child.v1) node = parent.first_child + k;
-      }
-    }
-    return node;
   }
 
   void begin() {
@@ -192,9 +187,16 @@ class Hemicube final : public FormFactorMethod {
     return frame;
   }
 
+  bool emitsMuch(const Region& region, const Side& side) const {
+    for (int c = 0; c < 3; ++c) {
+      if (region.area * side.emission[c] > kEmitterShare * emitted_[c]) return true;
+    }
+    return false;
+  }
+
   // Shoots from the region or, where its view is too near for one point, from its parts. Adds share = area * per_area in all.
   void shoot(const Region& region, const Side& side, int splits, double per_area) {
-    const bool emits = side.emission != glm::dvec3(0.0);
+    const bool emits = emitsMuch(region, side);
     HemicubeLayout layout{resolution_ != 0 ? resolution_ : (emits ? kEmitterResolution : kResolution)};
     const std::vector<double>& delta = deltas(layout);
     const HemicubePicture::Result seen = picture_.draw(frameOf(region, side), layout);
@@ -222,7 +224,13 @@ class Hemicube final : public FormFactorMethod {
       const std::uint32_t first = s.first_element[item.surface_side & 1];
       if (first == kNone) continue;  // an unlit side cannot be seen; if rounding says so, the column's defect tells
       const std::uint32_t i = (item.chart & 0xffffu) * s.nu >> 16, j = (item.chart >> 16) * s.nv >> 16;
-      const std::uint32_t e = first + cell_element_[s.first_cell + j * s.nu + i];
+      std::uint32_t local = cell_element_[s.first_cell + j * s.nu + i];
+      if (local == kMixed) {
+        const Surface& surface = mesh_.surfaces[item.surface_side >> 1];
+        const glm::dvec2 unit((item.chart & 0xffffu) + 0.5, (item.chart >> 16) + 0.5);
+        local = elementAt(mesh_, surface, unit / 65536.0 * surface.extent);
+      }
+      const std::uint32_t e = first + local;
       if (received_[e] == 0) touched_.push_back(e);
       received_[e] += share * delta[k];
     }
@@ -232,6 +240,7 @@ class Hemicube final : public FormFactorMethod {
   HemicubePicture picture_;
   std::uint64_t seed_;
   std::uint32_t resolution_;
+  glm::dvec3 emitted_{0.0};  // power of all patches, per channel [W]
   std::vector<SurfaceLookup> lookups_;
   std::vector<std::uint32_t> cell_element_;
   std::vector<std::pair<std::uint32_t, std::vector<double>>> deltas_;

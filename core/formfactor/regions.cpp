@@ -25,15 +25,20 @@ std::span<const PieceCorner> cornersOf(const Mesh& mesh, const Piece& piece) {
   return {&mesh.piece_corners[piece.corners.first], piece.corners.count};
 }
 
-// Calls f with each piece of the cells [u0, u1) x [v0, v1).
+// Calls f with each piece in the cell that is of the patch.
 template <class F>
-void forPieces(const Mesh& mesh, const Surface& s, std::uint32_t u0, std::uint32_t u1, std::uint32_t v0, std::uint32_t v1,
-               F&& f) {
-  for (std::uint32_t j = v0; j < v1; ++j) {
-    for (std::uint32_t i = u0; i < u1; ++i) {
-      const Range pieces = mesh.cells[s.first_cell + j * s.nu + i].pieces;
-      for (std::uint32_t p = pieces.first; p < pieces.end(); ++p) f(cornersOf(mesh, mesh.pieces[p]));
-    }
+void forPieces(const Mesh& mesh, const Surface& s, std::uint32_t cell, std::uint32_t patch, F&& f) {
+  const Range pieces = mesh.cells[cell].pieces;
+  for (std::uint32_t p = pieces.first; p < pieces.end(); ++p) {
+    const Piece& piece = mesh.pieces[p];
+    if (patch == kNone || mesh.shapes[s.elements.first + piece.element].patch == patch) f(cornersOf(mesh, piece));
+  }
+}
+
+template <class F>
+void forPieces(const Mesh& mesh, const Surface& s, const Node& node, std::uint32_t patch, F&& f) {
+  for (std::uint32_t j = node.v0; j < node.v1; ++j) {
+    for (std::uint32_t i = node.u0; i < node.u1; ++i) forPieces(mesh, s, s.first_cell + j * s.nu + i, patch, f);
   }
 }
 
@@ -44,25 +49,31 @@ bool isFull(const Region& region) {
 
 }  // namespace
 
-Region regionOfNode(const Mesh& mesh, std::uint32_t index) {
+Region regionOfPatch(const Mesh& mesh, std::uint32_t surface, std::uint32_t patch) {
+  const PatchShape& shape = mesh.patch_shapes[mesh.surfaces[surface].patches.first + patch];
+  return regionOfNode(mesh, shape.node, shape.whole ? kNone : patch);
+}
+
+Region regionOfNode(const Mesh& mesh, std::uint32_t index, std::uint32_t patch) {
   const Node& node = mesh.nodes[index];
   const Surface& s = mesh.surfaces[node.surface];
   const glm::dvec2 step = s.extent / glm::dvec2(s.nu, s.nv);
   Region out;
   out.surface = node.surface;
+  out.patch = patch;
   out.node = index;
   out.low = step * glm::dvec2(node.u0, node.v0);
   out.high = step * glm::dvec2(node.u1, node.v1);
   out.area = node.area;
   out.sample = (out.low + out.high) / 2.0;
-  if (isFull(out)) return out;
+  if (patch == kNone && isFull(out)) return out;
   Gatherer sum;
-  forPieces(mesh, s, node.u0, node.u1, node.v0, node.v1, [&](auto corners) { sum.add(corners); });
+  forPieces(mesh, s, node, patch, [&](auto corners) { sum.add(corners); });
+  out.area = sum.area;
   if (sum.area <= 0) return out;
   const glm::dvec2 centroid = sum.moment / sum.area;
   bool inside = false;
-  forPieces(mesh, s, node.u0, node.u1, node.v0, node.v1,
-            [&](auto corners) { inside = inside || contains(corners, centroid); });
+  forPieces(mesh, s, node, patch, [&](auto corners) { inside = inside || contains(corners, centroid); });
   out.sample = inside ? centroid : sum.largest_centre;
   return out;
 }
@@ -73,7 +84,8 @@ std::vector<Region> partsOf(const Mesh& mesh, const Region& region) {
   if (region.node != kNone && !mesh.nodes[region.node].isCell()) {
     const Node& node = mesh.nodes[region.node];
     for (std::uint32_t k = 0; k < node.child_count; ++k) {
-      if (mesh.nodes[node.first_child + k].area > 0) out.push_back(regionOfNode(mesh, node.first_child + k));
+      const Region part = regionOfNode(mesh, node.first_child + k, region.patch);
+      if (part.area > 0) out.push_back(part);
     }
     return out;
   }
@@ -93,16 +105,14 @@ std::vector<Region> partsOf(const Mesh& mesh, const Region& region) {
     part.area = region.area / 4;
     if (!full) {
       Gatherer sum;
-      const Range pieces = mesh.cells[cell].pieces;
-      for (std::uint32_t p = pieces.first; p < pieces.end(); ++p) {
-        const auto corners = cornersOf(mesh, mesh.pieces[p]);
+      forPieces(mesh, s, cell, region.patch, [&](auto corners) {
         a.assign(corners.begin(), corners.end());
         clipAt(a, 0, part.low.x, 1, b);
         clipAt(b, 0, part.high.x, -1, a);
         clipAt(a, 1, part.low.y, 1, b);
         clipAt(b, 1, part.high.y, -1, a);
         if (!a.empty()) sum.add(a);
-      }
+      });
       if (sum.area <= 0) continue;
       part.area = sum.area;
       const glm::dvec2 centroid = sum.moment / sum.area;

@@ -1,4 +1,5 @@
-// Parts of a patch to shoot from: the nodes of the subdivision tree below it and, below the cells, quarters of cells.
+// Parts of a patch to shoot from: what lies of it in the nodes of the subdivision tree below it and, below the cells, in
+// quarters of cells.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -12,6 +13,7 @@ namespace unshot {
 /// A part of a surface with area and a point on it to stand for it.
 struct Region {
   std::uint32_t surface = 0;
+  std::uint32_t patch = kNone;  ///< local patch that it is part of; kNone: whatever lies there
   std::uint32_t node = kNone;  ///< a node of the tree, or kNone below the cells
   std::uint32_t cell = kNone;  ///< below the cells: the one it lies in
   glm::dvec2 low{0.0}, high{0.0};  ///< rectangle in the chart
@@ -19,7 +21,9 @@ struct Region {
   glm::dvec2 sample{0.0};      ///< on the surface, in the region: its centroid where that lies in it
 };
 
-Region regionOfNode(const Mesh& mesh, std::uint32_t node);
+Region regionOfPatch(const Mesh& mesh, std::uint32_t surface, std::uint32_t patch);
+/// What lies of local patch `patch` (kNone: of any) in the node.
+Region regionOfNode(const Mesh& mesh, std::uint32_t node, std::uint32_t patch);
 /// The region's parts that have area: children of its node, or quarters of the rectangle.
 std::vector<Region> partsOf(const Mesh& mesh, const Region& region);
 

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/point_tree.h"
+#include "mesh/contacts.h"
 #include "mesh/display.h"
 #include "mesh/grid.h"
 #include "mesh/surfaces.h"
@@ -72,12 +73,14 @@ double elementsOf(const Surface& s, double size) {
   return litSides(s) * std::max(1.0, cells * s.area / (s.extent.x * s.extent.y));
 }
 
-void gridAll(Mesh& mesh, const std::vector<double>& sizes) {
+using Contacts = std::vector<std::vector<ContactSegment>>;
+
+void gridAll(Mesh& mesh, const std::vector<double>& sizes, const Contacts& contacts, double tolerance) {
   mesh.cells.clear();
   mesh.pieces.clear();
   mesh.piece_corners.clear();
   mesh.nodes.clear();
-  mesh.patch_nodes.clear();
+  mesh.patch_shapes.clear();
   mesh.shapes.clear();
   double elements = 0;
   for (std::size_t s = 0; s < sizes.size(); ++s) elements += elementsOf(mesh.surfaces[s], sizes[s]);
@@ -91,7 +94,8 @@ void gridAll(Mesh& mesh, const std::vector<double>& sizes) {
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
     Surface& surface = mesh.surfaces[s];
     if (litSides(surface) == 0) continue;
-    gridSurface(mesh, s, cellsAlong(surface.extent.x, sizes[s]), cellsAlong(surface.extent.y, sizes[s]), patch_cells);
+    gridSurface(mesh, s, cellsAlong(surface.extent.x, sizes[s]), cellsAlong(surface.extent.y, sizes[s]), patch_cells,
+                contacts[s], tolerance);
   }
 }
 
@@ -126,13 +130,13 @@ std::vector<double> sizesFor(const Mesh& mesh, double wanted) {
   return sizes;
 }
 
-void gridForCount(Mesh& mesh, double wanted) {
+void gridForCount(Mesh& mesh, double wanted, const Contacts& contacts, double tolerance) {
   double asked = wanted, best_error = INFINITY;
   std::vector<double> best;
   // Clipped and joined cells make the count differ from the estimate by some percent; a few corrections close the gap.
   for (int attempt = 0; attempt < 6; ++attempt) {
     const std::vector<double> sizes = sizesFor(mesh, asked);
-    gridAll(mesh, sizes);
+    gridAll(mesh, sizes, contacts, tolerance);
     const double error = std::abs(countElements(mesh) / wanted - 1);
     if (error < best_error) {
       best_error = error;
@@ -141,7 +145,7 @@ void gridForCount(Mesh& mesh, double wanted) {
     if (error < 0.03) break;
     asked *= wanted / countElements(mesh);
   }
-  if (std::abs(countElements(mesh) / wanted - 1) > best_error) gridAll(mesh, best);
+  if (std::abs(countElements(mesh) / wanted - 1) > best_error) gridAll(mesh, best, contacts, tolerance);
   if (best_error > 0.1) {
     mesh.diagnostics.push_back({Severity::kNote, "element-count",
                                 std::to_string(static_cast<std::uint64_t>(wanted)) + " elements were asked for, the mesh has " +
@@ -187,20 +191,24 @@ Mesh buildMesh(const Scene& scene, const MeshOptions& options) {
   mesh.bounds_min = scene.bounds_min;
   mesh.bounds_max = scene.bounds_max;
   mesh.materials = scene.materials;
-  const std::vector<SmoothPair> smooth_pairs = makeSurfaces(scene, weld(scene), mesh);
+  const SurfaceTopology topology = makeSurfaces(scene, weld(scene), mesh);
   if (mesh.surfaces.empty()) {
     throw Error(ErrorKind::kInput, "no face of the scene has any area", scene.path.string(), "unshot check on the scene");
   }
   makeSides(scene, options, mesh);
+  const double tolerance = weldDistance(scene);
+  const Contacts contacts = findContacts(mesh, topology.edges, 2 * tolerance);
   if (options.elements) {
-    gridForCount(mesh, static_cast<double>(*options.elements));
+    gridForCount(mesh, static_cast<double>(*options.elements), contacts, tolerance);
   } else {
     const double size = options.element_size.value_or(std::sqrt(mesh.lit_area / static_cast<double>(kDefaultElements)));
-    if (!mesh.sides.empty()) gridAll(mesh, std::vector<double>(mesh.surfaces.size(), size));
+    if (!mesh.sides.empty()) {
+      gridAll(mesh, std::vector<double>(mesh.surfaces.size(), size), contacts, tolerance);
+    }
   }
   numberElements(mesh);
   if (mesh.element_count > 0) mesh.element_size = std::sqrt(mesh.lit_area / mesh.element_count);
-  makeDisplay(mesh, smooth_pairs, weldDistance(scene));
+  makeDisplay(mesh, topology.smooth_pairs, tolerance);
   return mesh;
 }
 

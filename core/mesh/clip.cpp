@@ -1,5 +1,8 @@
 #include "mesh/clip.h"
 
+#include <algorithm>
+#include <glm/geometric.hpp>
+
 namespace unshot {
 namespace {
 
@@ -58,6 +61,16 @@ bool contains(std::span<const PieceCorner> polygon, const glm::dvec2& uv) {
     if (cross(b - a, uv - a) < 0) return false;
   }
   return polygon.size() >= 3;
+}
+
+double distanceOutside(std::span<const PieceCorner> polygon, const glm::dvec2& uv) {
+  double most = 0;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const glm::dvec2 edge = polygon[(k + 1) % polygon.size()].uv - polygon[k].uv;
+    const double length = glm::length(edge);
+    if (length > 0) most = std::max(most, cross(uv - polygon[k].uv, edge) / length);
+  }
+  return most;
 }
 
 }  // namespace unshot

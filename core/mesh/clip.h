@@ -20,4 +20,7 @@ glm::dvec2 polygonCentroid(std::span<const PieceCorner> polygon);
 /// Whether uv lies in the counter-clockwise convex polygon, its border included.
 bool contains(std::span<const PieceCorner> polygon, const glm::dvec2& uv);
 
+/// 0 inside, else how far uv lies beyond the edge it is farthest beyond (the distance, but near corners).
+double distanceOutside(std::span<const PieceCorner> polygon, const glm::dvec2& uv);
+
 }  // namespace unshot

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <set>
+#include <tuple>
+#include <utility>
 
 #include "base/point_tree.h"
 #include "mesh/weld.h"
@@ -11,15 +14,6 @@
 
 namespace unshot {
 namespace {
-
-// A vertex of one surface, whatever the side. One that is no corner of a piece but lies on an edge of one (because a
-// neighbour has a corner there) interpolates between the ends of that edge.
-struct LocalVertex {
-  std::uint32_t point;
-  std::uint32_t parent[2] = {kNone, kNone};  // local vertices; kNone for a corner
-  float along = 0;                           // 0 at parent[0], 1 at parent[1]
-  bool corner() const { return parent[0] == kNone; }
-};
 
 class DisplayMaker {
  public:
@@ -29,8 +23,7 @@ class DisplayMaker {
   void run() {
     findPoints();
     makeRings();
-    makeLocalVertices();
-    shareVertices();
+    joinCorners();
     numberVertices();
     makeTriangles();
     makeWeights();
@@ -46,7 +39,6 @@ class DisplayMaker {
     std::vector<glm::dvec3> all;
     all.reserve(mesh_.piece_corners.size());
     piece_surface_.resize(mesh_.pieces.size());
-    piece_element_.resize(mesh_.pieces.size());
     for (std::uint32_t s = 0; s < mesh_.surfaces.size(); ++s) {
       const Surface& surface = mesh_.surfaces[s];
       if (surface.elements.count == 0) continue;
@@ -54,7 +46,6 @@ class DisplayMaker {
         const Range pieces = mesh_.cells[c].pieces;
         for (std::uint32_t p = pieces.first; p < pieces.end(); ++p) {
           piece_surface_[p] = s;
-          piece_element_[p] = mesh_.cells[c].element;
           for (std::uint32_t k = 0; k < mesh_.pieces[p].corners.count; ++k) {
             all.push_back(surface.point(corner(mesh_.pieces[p], k).uv));
           }
@@ -73,82 +64,85 @@ class DisplayMaker {
     }
   }
 
-  // The ring of points around each piece, with what lies on its outline edges put in.
+  // A corner of a piece in its ring: the point and whether the edge to the next one is outline. A point that lies on an edge
+  // of the piece, because a neighbour has a corner there, is put in between the edge's ends.
+  struct RingCorner {
+    std::uint32_t point;
+    bool outline;
+    std::uint32_t from = kNone, to = kNone;  // ring corners of the edge it was put in; kNone for a corner of the piece
+    float along = 0;
+    bool putIn() const { return from != kNone; }
+  };
+
+  // Where a neighbour may be divided differently: on outlines, and within surfaces that contacts cut.
+  std::vector<char> cutSurfaces() const {
+    std::vector<char> cut(mesh_.surfaces.size(), 0);
+    for (std::uint32_t s = 0; s < mesh_.surfaces.size(); ++s) {
+      const Surface& surface = mesh_.surfaces[s];
+      if (surface.elements.count == 0) continue;
+      for (std::uint32_t c = surface.first_cell; c < surface.first_cell + surface.nu * surface.nv; ++c) {
+        if (mesh_.cells[c].element == kMixed) cut[s] = 1;
+      }
+    }
+    return cut;
+  }
+
   void makeRings() {
-    std::vector<std::uint32_t> on_outline;
+    const std::vector<char> cut = cutSurfaces();
+    std::vector<std::uint32_t> candidates;
     std::vector<char> marked(points_.size(), 0);
-    for (std::size_t k = 0; k < corner_point_.size(); ++k) {
-      if (!mesh_.piece_corners[k].outline || marked[corner_point_[k]]) continue;
-      marked[corner_point_[k]] = 1;
-      on_outline.push_back(corner_point_[k]);
+    for (std::uint32_t p = 0; p < mesh_.pieces.size(); ++p) {
+      const Range corners = mesh_.pieces[p].corners;
+      for (std::uint32_t k = corners.first; k < corners.end(); ++k) {
+        const bool before = mesh_.piece_corners[k > corners.first ? k - 1 : corners.end() - 1].outline;
+        if (!mesh_.piece_corners[k].outline && !before && !cut[piece_surface_[p]]) continue;
+        if (!std::exchange(marked[corner_point_[k]], char{1})) candidates.push_back(corner_point_[k]);
+      }
     }
     std::vector<glm::dvec3> places;
-    for (const std::uint32_t p : on_outline) places.push_back(points_[p]);
+    for (const std::uint32_t p : candidates) places.push_back(points_[p]);
     const PointTree tree(places);
     std::vector<std::pair<double, std::uint32_t>> between;
     ring_start_.push_back(0);
-    for (const Piece& piece : mesh_.pieces) {
+    for (std::uint32_t p = 0; p < mesh_.pieces.size(); ++p) {
+      const Piece& piece = mesh_.pieces[p];
       for (std::uint32_t k = 0; k < piece.corners.count; ++k) {
         const std::uint32_t a = corner_point_[piece.corners.first + k];
         const std::uint32_t b = corner_point_[piece.corners.first + (k + 1) % piece.corners.count];
         if (a == b) continue;
-        ring_.push_back({a, kNone, kNone, 0.0f});
-        if (!corner(piece, k).outline) continue;
+        const bool outline = corner(piece, k).outline;
+        ring_.push_back({a, outline});
+        if (!outline && !cut[piece_surface_[p]]) continue;
         const glm::dvec3 d = points_[b] - points_[a];
         const double length = glm::length(d);
         between.clear();
         tree.nearSegment(points_[a], points_[b], 2 * distance_, [&](std::uint32_t found) {
           const double along = glm::dot(places[found] - points_[a], d) / length;
-          if (along > distance_ && along < length - distance_) between.emplace_back(along, on_outline[found]);
+          if (along > distance_ && along < length - distance_) between.emplace_back(along, candidates[found]);
         });
         std::sort(between.begin(), between.end());
+        const auto from = static_cast<std::uint32_t>(ring_.size()) - 1;
         for (const auto& [along, point] : between) {
           if (point == a || point == b || ring_.back().point == point) continue;
-          ring_.push_back({point, a, b, static_cast<float>(along / length)});
+          ring_.push_back({point, outline, from, kNone, static_cast<float>(along / length)});
         }
       }
-      ring_start_.push_back(static_cast<std::uint32_t>(ring_.size()));
+      closeRing(ring_start_.back());
     }
   }
 
-  struct RingPoint {
-    std::uint32_t point;
-    std::uint32_t from, to;  // ends of the edge it was put in; kNone for a corner
-    float along;
-  };
-
-  std::uint32_t localVertex(std::uint32_t surface, std::uint32_t point) const {
-    const auto first = local_.begin() + local_start_[surface], end = local_.begin() + local_start_[surface + 1];
-    const auto found = std::lower_bound(first, end, point, [](const LocalVertex& v, std::uint32_t p) { return v.point < p; });
-    return static_cast<std::uint32_t>(found - local_.begin());
-  }
-
-  void makeLocalVertices() {
-    std::uint32_t piece = 0;
-    local_start_.push_back(0);
-    std::vector<LocalVertex> own;
-    for (std::uint32_t s = 0; s < mesh_.surfaces.size(); ++s) {
-      own.clear();
-      for (; piece < mesh_.pieces.size() && piece_surface_[piece] == s; ++piece) {
-        for (std::uint32_t k = ring_start_[piece]; k < ring_start_[piece + 1]; ++k) {
-          own.push_back({ring_[k].point, {ring_[k].from, ring_[k].to}, ring_[k].along});
-        }
-      }
-      // A corner of any piece comes before the same point on an edge.
-      std::sort(own.begin(), own.end(), [](const LocalVertex& a, const LocalVertex& b) {
-        return std::make_tuple(a.point, !a.corner()) < std::make_tuple(b.point, !b.corner());
-      });
-      own.erase(std::unique(own.begin(), own.end(), [](auto& a, auto& b) { return a.point == b.point; }), own.end());
-      local_.insert(local_.end(), own.begin(), own.end());
-      local_start_.push_back(static_cast<std::uint32_t>(local_.size()));
-    }
-    for (std::uint32_t s = 0; s < mesh_.surfaces.size(); ++s) {
-      for (std::uint32_t v = local_start_[s]; v < local_start_[s + 1]; ++v) {
-        for (std::uint32_t& parent : local_[v].parent) {
-          if (parent != kNone) parent = localVertex(s, parent);
-        }
+  // Points put in know the end of their edge: the next corner of the piece around the ring.
+  void closeRing(std::uint32_t first) {
+    const auto end = static_cast<std::uint32_t>(ring_.size());
+    std::uint32_t next = first;
+    for (std::uint32_t k = end; k-- > first;) {
+      if (ring_[k].putIn()) {
+        ring_[k].to = next;
+      } else {
+        next = k;
       }
     }
+    ring_start_.push_back(end);
   }
 
   std::uint32_t find(std::uint32_t c) {
@@ -156,69 +150,92 @@ class DisplayMaker {
     return c;
   }
 
-  // Joins the vertices of smooth neighbours, side by side: group 2 v + back.
-  void shareVertices() {
-    group_.resize(2 * local_.size());
+  struct RingEdge {
+    std::uint32_t low, high;  // points
+    std::uint32_t at_low, at_high;  // ring corners there
+    std::uint32_t surface;
+    bool outline;
+  };
+
+  // Ring corners are one vertex where pieces share an edge across which light is continuous: within a surface an edge that is
+  // not outline, between surfaces an edge of a smooth pair. Side by side: group 2 corner + back.
+  void joinCorners() {
+    std::vector<RingEdge> edges;
+    edges.reserve(ring_.size());
+    for (std::uint32_t p = 0; p < mesh_.pieces.size(); ++p) {
+      for (std::uint32_t k = ring_start_[p]; k < ring_start_[p + 1]; ++k) {
+        const std::uint32_t next = k + 1 < ring_start_[p + 1] ? k + 1 : ring_start_[p];
+        const bool forward = ring_[k].point < ring_[next].point;
+        const std::uint32_t low = forward ? k : next, high = forward ? next : k;
+        edges.push_back({ring_[low].point, ring_[high].point, low, high, piece_surface_[p], ring_[k].outline});
+      }
+    }
+    std::sort(edges.begin(), edges.end(),
+              [](const RingEdge& a, const RingEdge& b) { return std::tie(a.low, a.high) < std::tie(b.low, b.high); });
+    std::set<std::tuple<std::uint32_t, std::uint32_t, bool>> smooth;
+    for (const SmoothPair& pair : pairs_) smooth.emplace(std::min(pair.a, pair.b), std::max(pair.a, pair.b), pair.flipped);
+    group_.resize(2 * ring_.size());
     std::iota(group_.begin(), group_.end(), 0u);
-    shared_.assign(local_.size(), 0);
-    for (const SmoothPair& pair : pairs_) {
-      std::uint32_t a = local_start_[pair.a], b = local_start_[pair.b];
-      while (a < local_start_[pair.a + 1] && b < local_start_[pair.b + 1]) {
-        if (local_[a].point != local_[b].point) {
-          ++(local_[a].point < local_[b].point ? a : b);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      for (std::size_t j = i + 1; j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high; ++j) {
+        const RingEdge &a = edges[i], &b = edges[j];
+        if (a.surface == b.surface) {
+          if (!a.outline && !b.outline) joinEdge(a, b, 0);
           continue;
         }
-        shared_[a] = shared_[b] = 1;
-        for (std::uint32_t back = 0; back < 2; ++back) {
-          group_[find(2 * a + back)] = find(2 * b + (back ^ static_cast<std::uint32_t>(pair.flipped)));
-        }
-        ++a;
-        ++b;
+        const std::uint32_t first = std::min(a.surface, b.surface), second = std::max(a.surface, b.surface);
+        if (smooth.count({first, second, false}) != 0) joinEdge(a, b, 0);
+        if (smooth.count({first, second, true}) != 0) joinEdge(a, b, 1);
       }
+    }
+  }
+
+  void joinEdge(const RingEdge& a, const RingEdge& b, std::uint32_t flip) {
+    for (std::uint32_t back = 0; back < 2; ++back) {
+      group_[find(2 * a.at_low + back)] = find(2 * b.at_low + (back ^ flip));
+      group_[find(2 * a.at_high + back)] = find(2 * b.at_high + (back ^ flip));
     }
   }
 
   void numberVertices() {
     vertex_.assign(group_.size(), kNone);
-    for (std::uint32_t s = 0; s < mesh_.surfaces.size(); ++s) {
-      for (std::uint32_t back = 0; back < 2; ++back) {
-        const std::uint32_t side = mesh_.surfaces[s].side[back];
-        if (side == kNone) continue;
-        for (std::uint32_t v = local_start_[s]; v < local_start_[s + 1]; ++v) {
-          std::uint32_t& vertex = vertex_[find(2 * v + back)];
+    for (std::uint32_t p = 0; p < mesh_.pieces.size(); ++p) {
+      const Surface& surface = mesh_.surfaces[piece_surface_[p]];
+      for (std::uint32_t k = ring_start_[p]; k < ring_start_[p + 1]; ++k) {
+        for (std::uint32_t back = 0; back < 2; ++back) {
+          if (surface.side[back] == kNone) continue;
+          std::uint32_t& vertex = vertex_[find(2 * k + back)];
           if (vertex == kNone) {
             vertex = static_cast<std::uint32_t>(mesh_.vertices.size());
-            mesh_.vertices.push_back({glm::vec3(points_[local_[v].point]), glm::vec3(0.0f), mesh_.surfaces[s].material, side});
+            mesh_.vertices.push_back(
+                {glm::vec3(points_[ring_[k].point]), glm::vec3(0.0f), surface.material, surface.side[back]});
           }
-          vertex_[2 * v + back] = vertex;
+          vertex_[2 * k + back] = vertex;
         }
       }
     }
   }
 
   void makeTriangles() {
-    std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<glm::dvec2> outline;
     for (std::uint32_t p = 0; p < mesh_.pieces.size(); ++p) {
       const Surface& surface = mesh_.surfaces[piece_surface_[p]];
       outline.clear();
       for (std::uint32_t k = ring_start_[p]; k < ring_start_[p + 1]; ++k) {
-        const glm::dvec3 d = points_[ring_[k].point] - surface.origin;
-        outline.emplace_back(glm::dot(d, surface.axis_u), glm::dot(d, surface.axis_v));
+        outline.push_back(surface.chart(points_[ring_[k].point]));
       }
-      triangles = triangulate(outline);
+      const auto triangles = triangulate(outline);
       for (std::uint32_t back = 0; back < 2; ++back) {
         const std::uint32_t side = surface.side[back];
         if (side == kNone) continue;
         for (auto t : triangles) {
           if (back) std::swap(t[1], t[2]);
           for (const std::uint32_t k : t) {
-            const std::uint32_t v = localVertex(piece_surface_[p], ring_[ring_start_[p] + k].point);
-            const std::uint32_t vertex = vertex_[2 * v + back];
+            const std::uint32_t vertex = vertex_[2 * (ring_start_[p] + k) + back];
             mesh_.triangle_vertices.push_back(vertex);
             mesh_.vertices[vertex].normal += glm::vec3(mesh_.sides[side].normal * mesh_.pieces[p].area);
           }
-          mesh_.triangle_element.push_back(mesh_.sides[side].first_element + piece_element_[p]);
+          mesh_.triangle_element.push_back(mesh_.sides[side].first_element + mesh_.pieces[p].element);
         }
       }
     }
@@ -229,60 +246,62 @@ class DisplayMaker {
   }
 
   struct Entry {
-    std::uint32_t vertex, element;
+    std::uint32_t element;
     float weight;
   };
+  using Rows = std::vector<std::vector<Entry>>;
 
-  // Elements around a vertex count by the inverse of their centre's distance. A vertex put in on an edge that nobody shares
-  // takes the values of the edge's ends, so that putting it in changes nothing that is seen.
+  // Elements around a vertex count by the inverse of their centre's distance. A vertex that is only put in takes the values
+  // of its edge's ends, so that putting it in changes nothing that is seen.
   void makeWeights() {
-    std::vector<Entry> entries;
+    Rows rows(mesh_.vertices.size());
+    std::vector<char> real(mesh_.vertices.size(), 0);
+    for (std::uint32_t k = 0; k < ring_.size(); ++k) {
+      for (std::uint32_t back = 0; back < 2; ++back) {
+        if (!ring_[k].putIn() && vertex_[2 * k + back] != kNone) real[vertex_[2 * k + back]] = 1;
+      }
+    }
     for (std::uint32_t p = 0; p < mesh_.pieces.size(); ++p) {
       const Surface& surface = mesh_.surfaces[piece_surface_[p]];
-      const glm::dvec3 centre = mesh_.shapes[surface.elements.first + piece_element_[p]].centre;
+      const glm::dvec3 centre = mesh_.shapes[surface.elements.first + mesh_.pieces[p].element].centre;
       for (std::uint32_t k = ring_start_[p]; k < ring_start_[p + 1]; ++k) {
-        const std::uint32_t v = localVertex(piece_surface_[p], ring_[k].point);
-        if (!local_[v].corner() && !shared_[v]) continue;
-        const double distance = glm::distance(centre, points_[local_[v].point]);
+        const double distance = std::max(glm::distance(centre, points_[ring_[k].point]), 1e-30);
         for (std::uint32_t back = 0; back < 2; ++back) {
-          const std::uint32_t side = surface.side[back];
-          if (side == kNone) continue;
-          entries.push_back({vertex_[2 * v + back], mesh_.sides[side].first_element + piece_element_[p],
-                             static_cast<float>(1 / std::max(distance, 1e-30))});
+          const std::uint32_t side = surface.side[back], vertex = vertex_[2 * k + back];
+          if (side == kNone || !real[vertex]) continue;
+          const std::uint32_t element = mesh_.sides[side].first_element + mesh_.pieces[p].element;
+          auto& row = rows[vertex];
+          const bool known = std::any_of(row.begin(), row.end(), [&](const Entry& e) { return e.element == element; });
+          if (!known) row.push_back({element, static_cast<float>(1 / distance)});
         }
       }
     }
-    std::vector<std::vector<Entry>> rows(mesh_.vertices.size());
-    for (const Entry& e : entries) {
-      auto& row = rows[e.vertex];
-      if (std::none_of(row.begin(), row.end(), [&](const Entry& other) { return other.element == e.element; })) row.push_back(e);
-    }
-    interpolateAlongEdges(rows);
     for (auto& row : rows) {
       float sum = 0;
       for (const Entry& e : row) sum += e.weight;
+      for (Entry& e : row) e.weight /= sum;
+    }
+    interpolateAlongEdges(real, rows);
+    for (const auto& row : rows) {
       for (const Entry& e : row) {
         mesh_.vertex_from_elements.index.push_back(e.element);
-        mesh_.vertex_from_elements.weight.push_back(e.weight / sum);
+        mesh_.vertex_from_elements.weight.push_back(e.weight);
       }
       mesh_.vertex_from_elements.start.push_back(static_cast<std::uint32_t>(mesh_.vertex_from_elements.index.size()));
     }
   }
 
-  void interpolateAlongEdges(std::vector<std::vector<Entry>>& rows) const {
-    for (std::uint32_t s = 0; s < mesh_.surfaces.size(); ++s) {
-      for (std::uint32_t v = local_start_[s]; v < local_start_[s + 1]; ++v) {
-        if (local_[v].corner() || shared_[v]) continue;
-        for (std::uint32_t back = 0; back < 2; ++back) {
-          if (mesh_.surfaces[s].side[back] == kNone) continue;
-          const std::uint32_t vertex = vertex_[2 * v + back];
-          for (int end = 0; end < 2; ++end) {
-            const auto& parent = rows[vertex_[2 * local_[v].parent[end] + back]];
-            float sum = 0;
-            for (const Entry& e : parent) sum += e.weight;
-            const float share = end == 0 ? 1 - local_[v].along : local_[v].along;
-            for (const Entry& e : parent) rows[vertex].push_back({vertex, e.element, share * e.weight / sum});
-          }
+  void interpolateAlongEdges(const std::vector<char>& real, Rows& rows) const {
+    for (std::uint32_t k = 0; k < ring_.size(); ++k) {
+      if (!ring_[k].putIn()) continue;
+      for (std::uint32_t back = 0; back < 2; ++back) {
+        const std::uint32_t vertex = vertex_[2 * k + back];
+        if (vertex == kNone || real[vertex] || !rows[vertex].empty()) continue;
+        for (const Entry& e : rows[vertex_[2 * ring_[k].from + back]]) {
+          rows[vertex].push_back({e.element, (1 - ring_[k].along) * e.weight});
+        }
+        for (const Entry& e : rows[vertex_[2 * ring_[k].to + back]]) {
+          rows[vertex].push_back({e.element, ring_[k].along * e.weight});
         }
       }
     }
@@ -291,16 +310,13 @@ class DisplayMaker {
   Mesh& mesh_;
   std::span<const SmoothPair> pairs_;
   double distance_;
-  std::vector<std::uint32_t> piece_surface_, piece_element_;  // per piece
+  std::vector<std::uint32_t> piece_surface_;  // per piece
   std::vector<glm::dvec3> points_;
   std::vector<std::uint32_t> corner_point_;  // per piece corner
-  std::vector<RingPoint> ring_;
+  std::vector<RingCorner> ring_;
   std::vector<std::uint32_t> ring_start_;    // per piece
-  std::vector<LocalVertex> local_;           // per surface, sorted by point
-  std::vector<std::uint32_t> local_start_;   // per surface
-  std::vector<char> shared_;                 // per local vertex
-  std::vector<std::uint32_t> group_;         // union-find over 2 v + back
-  std::vector<std::uint32_t> vertex_;        // display vertex of 2 v + back
+  std::vector<std::uint32_t> group_;         // union-find over 2 ring corner + back
+  std::vector<std::uint32_t> vertex_;        // display vertex of 2 ring corner + back
 };
 
 }  // namespace

@@ -1,19 +1,38 @@
 #include "mesh/grid.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
 #include "mesh/clip.h"
+#include "mesh/parts.h"
 
 namespace unshot {
 namespace {
 
+class Groups {  // union-find
+ public:
+  explicit Groups(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  std::uint32_t find(std::uint32_t k) {
+    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
+    return k;
+  }
+  void join(std::uint32_t from, std::uint32_t to) { parent_[find(from)] = find(to); }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
 class SurfaceGrid {
  public:
-  SurfaceGrid(Mesh& mesh, std::uint32_t surface, std::uint32_t patch_cells)
-      : mesh_(mesh), surface_index_(surface), surface_(mesh.surfaces[surface]), patch_cells_(patch_cells) {}
+  SurfaceGrid(Mesh& mesh, std::uint32_t surface, std::uint32_t patch_cells, const std::vector<ContactSegment>& contacts,
+              double tolerance)
+      : mesh_(mesh),
+        surface_index_(surface),
+        surface_(mesh.surfaces[surface]),
+        patch_cells_(patch_cells),
+        contacts_(contacts),
+        tolerance_(tolerance) {}
 
   void run(std::uint32_t nu, std::uint32_t nv) {
     surface_.nu = nu;
@@ -22,24 +41,20 @@ class SurfaceGrid {
     dv_ = surface_.extent.y / nv;
     surface_.first_cell = static_cast<std::uint32_t>(mesh_.cells.size());
     mesh_.cells.resize(mesh_.cells.size() + std::size_t{nu} * nv);
-    clipTriangles();
-    storePieces();
-    joinSlivers();
-    makeTree();
-    makeElements();
+    std::vector<std::vector<ConvexPolygon>> in_cell(std::size_t{nu} * nv);
+    clipTriangles(in_cell);
+    storePieces(in_cell);
+    const PartGraph graph = findParts(mesh_, surface_);
+    makeElements(graph);
+    makeTree(graph);
+    makePatches(graph);
   }
 
  private:
-  struct LoosePiece {
-    std::uint32_t cell;
-    std::uint32_t first, count;
-    double area;
-  };
-
   Cell& cell(std::uint32_t local) { return mesh_.cells[surface_.first_cell + local]; }
 
-  void clipTriangles() {
-    ConvexPolygon triangle, left, band, right, piece;
+  void clipTriangles(std::vector<std::vector<ConvexPolygon>>& in_cell) const {
+    ConvexPolygon triangle, scratch, band, piece;
     const double smallest = 1e-12 * du_ * dv_;
     const auto index = [](double x, double step, std::uint32_t n) {
       return std::min(static_cast<std::uint32_t>(std::max(x / step, 0.0)), n - 1);
@@ -51,17 +66,13 @@ class SurfaceGrid {
       const auto [v_low, v_high] = range(triangle, 1);
       const std::uint32_t j1 = index(v_high, dv_, surface_.nv);
       for (std::uint32_t j = index(v_low, dv_, surface_.nv); j <= j1; ++j) {
-        clipBand(triangle, 1, j, surface_.nv, dv_, left, band);
+        clipBand(triangle, 1, j, surface_.nv, dv_, scratch, band);
         if (band.empty()) continue;
         const auto [u_low, u_high] = range(band, 0);
         const std::uint32_t i1 = index(u_high, du_, surface_.nu);
         for (std::uint32_t i = index(u_low, du_, surface_.nu); i <= i1; ++i) {
-          clipBand(band, 0, i, surface_.nu, du_, right, piece);
-          const double area = piece.empty() ? 0 : polygonArea(piece);
-          if (area <= smallest) continue;
-          loose_.push_back({j * surface_.nu + i, static_cast<std::uint32_t>(corners_.size()),
-                            static_cast<std::uint32_t>(piece.size()), area});
-          corners_.insert(corners_.end(), piece.begin(), piece.end());
+          clipBand(band, 0, i, surface_.nu, du_, scratch, piece);
+          if (!piece.empty() && polygonArea(piece) > smallest) in_cell[j * surface_.nu + i].push_back(piece);
         }
       }
     }
@@ -91,91 +102,120 @@ class SurfaceGrid {
     }
   }
 
-  void storePieces() {
-    std::stable_sort(loose_.begin(), loose_.end(), [](const auto& a, const auto& b) { return a.cell < b.cell; });
-    const std::size_t cells = std::size_t{surface_.nu} * surface_.nv;
-    area_.assign(cells, 0.0);
-    for (std::size_t c = 0; c < cells; ++c) cell(static_cast<std::uint32_t>(c)).pieces.first = pieceCount();
-    for (std::size_t k = 0; k < loose_.size(); ++k) {
-      const LoosePiece& piece = loose_[k];
-      Cell& target = cell(piece.cell);
-      if (target.pieces.count == 0) target.pieces.first = pieceCount();
-      ++target.pieces.count;
-      area_[piece.cell] += piece.area;
-      mesh_.pieces.push_back({{static_cast<std::uint32_t>(mesh_.piece_corners.size()), piece.count}, piece.area});
-      mesh_.piece_corners.insert(mesh_.piece_corners.end(), corners_.begin() + piece.first,
-                                 corners_.begin() + piece.first + piece.count);
-    }
-  }
-
-  std::uint32_t pieceCount() const { return static_cast<std::uint32_t>(mesh_.pieces.size()); }
-
-  std::uint32_t find(std::uint32_t c) {
-    while (group_[c] != c) c = group_[c] = group_[group_[c]];
-    return c;
-  }
-
-  // Length of the border of cell c on the grid line to its left (0), right (1), below (2), above (3).
-  std::array<double, 4> borders(std::uint32_t c) const {
-    const std::uint32_t i = c % surface_.nu, j = c / surface_.nu;
-    const std::array<double, 4> line{i * du_, (i + 1) * du_, j * dv_, (j + 1) * dv_};
-    const std::array<double, 4> near{1e-9 * du_, 1e-9 * du_, 1e-9 * dv_, 1e-9 * dv_};
-    std::array<double, 4> out{};
-    const Range pieces = mesh_.cells[surface_.first_cell + c].pieces;
-    for (std::uint32_t p = pieces.first; p < pieces.end(); ++p) {
-      const Range corners = mesh_.pieces[p].corners;
-      for (std::uint32_t k = 0; k < corners.count; ++k) {
-        const glm::dvec2 a = mesh_.piece_corners[corners.first + k].uv;
-        const glm::dvec2 b = mesh_.piece_corners[corners.first + (k + 1) % corners.count].uv;
-        for (int s = 0; s < 4; ++s) {
-          const int axis = s / 2;
-          if (std::abs(a[axis] - line[s]) < near[s] && std::abs(b[axis] - line[s]) < near[s]) {
-            out[s] += std::abs(a[1 - axis] - b[1 - axis]);
-          }
-        }
+  void storePieces(std::vector<std::vector<ConvexPolygon>>& in_cell) {
+    for (std::uint32_t c = 0; c < in_cell.size(); ++c) {
+      Range& pieces = cell(c).pieces;
+      pieces.first = static_cast<std::uint32_t>(mesh_.pieces.size());
+      if (!contacts_.empty()) cutByContacts(in_cell[c], contacts_, tolerance_);
+      for (const ConvexPolygon& p : in_cell[c]) {
+        mesh_.pieces.push_back({{static_cast<std::uint32_t>(mesh_.piece_corners.size()), static_cast<std::uint32_t>(p.size())},
+                                polygonArea(p),
+                                0});
+        mesh_.piece_corners.insert(mesh_.piece_corners.end(), p.begin(), p.end());
+        ++pieces.count;
       }
     }
-    return out;
   }
 
-  void joinSlivers() {
-    const auto cells = static_cast<std::uint32_t>(area_.size());
-    group_.resize(cells);
-    std::iota(group_.begin(), group_.end(), 0u);
-    group_area_ = area_;
-    const double enough = kSliverShare * du_ * dv_;
-    std::vector<std::uint32_t> small;
-    for (std::uint32_t c = 0; c < cells; ++c) {
-      if (area_[c] > 0 && area_[c] < enough) small.push_back(c);
+  // Joins parts too small to be elements to the neighbour with the longest common border, smallest first.
+  Groups joinSlivers(const PartGraph& graph) const {
+    Groups groups(graph.parts.size());
+    std::vector<std::vector<PartBorder>> around(graph.parts.size());
+    for (const PartBorder& b : graph.borders) {
+      around[b.a].push_back(b);
+      around[b.b].push_back({b.b, b.a, b.length});
     }
-    std::sort(small.begin(), small.end(), [&](auto a, auto b) { return area_[a] < area_[b]; });
-    for (const std::uint32_t c : small) {
-      if (group_area_[find(c)] >= enough) continue;
-      const auto border = borders(c);
-      const std::uint32_t i = c % surface_.nu, j = c / surface_.nu;
+    const double enough = kSliverShare * du_ * dv_;
+    std::vector<double> area;
+    std::vector<std::uint32_t> small;
+    for (std::uint32_t p = 0; p < graph.parts.size(); ++p) {
+      area.push_back(graph.parts[p].area);
+      if (area[p] < enough) small.push_back(p);
+    }
+    std::sort(small.begin(), small.end(), [&](auto a, auto b) { return graph.parts[a].area < graph.parts[b].area; });
+    for (const std::uint32_t p : small) {
+      const std::uint32_t own = groups.find(p);
+      if (area[own] >= enough) continue;
       std::uint32_t best = kNone;
       double longest = 0;
-      for (int s = 0; s < 4; ++s) {
-        if ((s == 0 && i == 0) || (s == 1 && i + 1 == surface_.nu) || (s == 2 && j == 0) ||
-            (s == 3 && j + 1 == surface_.nv)) {
-          continue;
-        }
-        const std::uint32_t other = s == 0 ? c - 1 : s == 1 ? c + 1 : s == 2 ? c - surface_.nu : c + surface_.nu;
-        if (area_[other] <= 0 || find(other) == find(c) || border[s] <= longest) continue;
-        longest = border[s];
-        best = other;
+      for (const PartBorder& b : around[p]) {
+        if (groups.find(b.b) == own || b.length <= longest) continue;
+        longest = b.length;
+        best = groups.find(b.b);
       }
       if (best == kNone) continue;
-      const std::uint32_t from = find(c), to = find(best);
-      group_[from] = to;
-      group_area_[to] += group_area_[from];
+      groups.join(own, best);
+      area[best] += area[own];
+    }
+    return groups;
+  }
+
+  void makeElements(const PartGraph& graph) {
+    Groups groups = joinSlivers(graph);
+    surface_.elements.first = static_cast<std::uint32_t>(mesh_.shapes.size());
+    std::vector<std::uint32_t> element_of_group(graph.parts.size(), kNone);
+    std::vector<double> largest_part;
+    part_element_.resize(graph.parts.size());
+    for (std::uint32_t p = 0; p < graph.parts.size(); ++p) {
+      std::uint32_t& element = element_of_group[groups.find(p)];
+      if (element == kNone) {
+        element = static_cast<std::uint32_t>(main_part_.size());
+        mesh_.shapes.emplace_back();
+        main_part_.push_back(p);
+        largest_part.push_back(0);
+      }
+      part_element_[p] = element;
+      mesh_.shapes[surface_.elements.first + element].area += graph.parts[p].area;
+      if (graph.parts[p].area > largest_part[element]) {
+        largest_part[element] = graph.parts[p].area;
+        main_part_[element] = p;
+      }
+    }
+    surface_.elements.count = static_cast<std::uint32_t>(main_part_.size());
+    for (std::uint32_t c = 0; c < surface_.nu * surface_.nv; ++c) {
+      Cell& target = cell(c);
+      for (std::uint32_t k = target.pieces.first; k < target.pieces.end(); ++k) {
+        const std::uint32_t element = part_element_[graph.piece_part[k - firstPiece()]];
+        mesh_.pieces[k].element = element;
+        target.element = target.element == kNone || target.element == element ? element : kMixed;
+      }
+    }
+    placeCentres();
+  }
+
+  std::uint32_t firstPiece() const { return mesh_.cells[surface_.first_cell].pieces.first; }
+
+  // The centroid, or where that falls outside the element, the centre of its largest piece.
+  void placeCentres() {
+    const std::uint32_t n = surface_.elements.count;
+    std::vector<glm::dvec2> moment(n, glm::dvec2(0.0)), largest_centre(n, glm::dvec2(0.0));
+    std::vector<double> largest(n, 0.0);
+    for (std::uint32_t k = firstPiece(); k < mesh_.pieces.size(); ++k) {
+      const Piece& piece = mesh_.pieces[k];
+      const glm::dvec2 centre = polygonCentroid({&mesh_.piece_corners[piece.corners.first], piece.corners.count});
+      moment[piece.element] += piece.area * centre;
+      if (piece.area <= largest[piece.element]) continue;
+      largest[piece.element] = piece.area;
+      largest_centre[piece.element] = centre;
+    }
+    for (std::uint32_t e = 0; e < n; ++e) {
+      ElementShape& shape = mesh_.shapes[surface_.elements.first + e];
+      const glm::dvec2 centroid = moment[e] / shape.area;
+      bool inside = false;
+      const Range pieces = mesh_.cells[cellAt(surface_, centroid)].pieces;
+      for (std::uint32_t k = pieces.first; k < pieces.end() && !inside; ++k) {
+        const Range corners = mesh_.pieces[k].corners;
+        inside = mesh_.pieces[k].element == e && contains({&mesh_.piece_corners[corners.first], corners.count}, centroid);
+      }
+      shape.centre = surface_.point(inside ? centroid : largest_centre[e]);
     }
   }
 
-  void makeTree() {
-    surface_.patches.first = static_cast<std::uint32_t>(mesh_.patch_nodes.size());
+  void makeTree(const PartGraph& graph) {
     surface_.root = static_cast<std::uint32_t>(mesh_.nodes.size());
-    cell_patch_.assign(area_.size(), kNone);
+    cell_patch_node_.assign(std::size_t{surface_.nu} * surface_.nv, kNone);
+    cell_area_.assign(cell_patch_node_.size(), 0.0);
+    for (const Part& p : graph.parts) cell_area_[p.cell] += p.area;
     Node root;
     root.surface = surface_index_;
     root.u1 = surface_.nu;
@@ -185,17 +225,14 @@ class SurfaceGrid {
   }
 
   // Children halve a node along both sides, or along the longer one where it is at least twice the other.
-  void grow(std::uint32_t index, std::uint32_t patch) {
-    Node node = mesh_.nodes[index];
+  void grow(std::uint32_t index, std::uint32_t patch_node) {
+    const Node node = mesh_.nodes[index];
     const std::uint32_t wide = node.u1 - node.u0, high = node.v1 - node.v0;
-    if (patch == kNone && wide <= patch_cells_ && high <= patch_cells_) {
-      patch = static_cast<std::uint32_t>(mesh_.patch_nodes.size()) - surface_.patches.first;
-      mesh_.patch_nodes.push_back(index);
-    }
+    if (patch_node == kNone && wide <= patch_cells_ && high <= patch_cells_) patch_node = index;
     if (node.isCell()) {
       const std::uint32_t c = node.v0 * surface_.nu + node.u0;
-      cell_patch_[c] = patch;
-      mesh_.nodes[index].area = area_[c];
+      cell_patch_node_[c] = patch_node;
+      mesh_.nodes[index].area = cell_area_[c];
       return;
     }
     const double size_u = wide * du_, size_v = high * dv_;
@@ -213,7 +250,7 @@ class SurfaceGrid {
     const std::uint32_t count = static_cast<std::uint32_t>(mesh_.nodes.size()) - first;
     double area = 0;
     for (std::uint32_t k = 0; k < count; ++k) {
-      grow(first + k, patch);
+      grow(first + k, patch_node);
       area += mesh_.nodes[first + k].area;
     }
     mesh_.nodes[index].first_child = first;
@@ -221,80 +258,48 @@ class SurfaceGrid {
     mesh_.nodes[index].area = area;
   }
 
-  void makeElements() {
-    surface_.elements.first = static_cast<std::uint32_t>(mesh_.shapes.size());
-    const auto cells = static_cast<std::uint32_t>(area_.size());
-    std::vector<std::uint32_t> element_of_group(cells, kNone);
-    std::vector<glm::dvec2> moment;
-    std::vector<double> largest_cell, largest_piece;
-    std::vector<glm::dvec2> largest_centre;
-    for (std::uint32_t c = 0; c < cells; ++c) {
-      if (area_[c] <= 0) continue;
-      std::uint32_t& element = element_of_group[find(c)];
-      if (element == kNone) {
-        element = static_cast<std::uint32_t>(mesh_.shapes.size()) - surface_.elements.first;
-        mesh_.shapes.emplace_back();
-        moment.emplace_back(0.0);
-        largest_cell.push_back(0);
-        largest_piece.push_back(0);
-        largest_centre.emplace_back(0.0);
-      }
-      cell(c).element = element;
-      ElementShape& shape = mesh_.shapes[surface_.elements.first + element];
-      shape.area += area_[c];
-      if (area_[c] > largest_cell[element]) {
-        largest_cell[element] = area_[c];
-        shape.patch = cell_patch_[c];
-      }
-      for (std::uint32_t p = cell(c).pieces.first; p < cell(c).pieces.end(); ++p) {
-        const Piece& piece = mesh_.pieces[p];
-        const glm::dvec2 centre = polygonCentroid({&mesh_.piece_corners[piece.corners.first], piece.corners.count});
-        moment[element] += piece.area * centre;
-        if (piece.area > largest_piece[element]) {
-          largest_piece[element] = piece.area;
-          largest_centre[element] = centre;
-        }
-      }
+  // A patch is what hangs together of the elements whose largest part lies in the same node.
+  void makePatches(const PartGraph& graph) {
+    const std::uint32_t n = surface_.elements.count;
+    std::vector<std::uint32_t> node(n);
+    for (std::uint32_t e = 0; e < n; ++e) node[e] = cell_patch_node_[graph.parts[main_part_[e]].cell];
+    Groups groups(n);
+    for (const PartBorder& b : graph.borders) {
+      const std::uint32_t x = part_element_[b.a], y = part_element_[b.b];
+      if (node[x] == node[y]) groups.join(x, y);
     }
-    surface_.elements.count = static_cast<std::uint32_t>(moment.size());
-    placeCentres(moment, largest_centre);
-    dropEmptyPatches();
+    surface_.patches.first = static_cast<std::uint32_t>(mesh_.patch_shapes.size());
+    std::vector<std::uint32_t> patch_of_group(n, kNone);
+    for (std::uint32_t e = 0; e < n; ++e) {
+      std::uint32_t& patch = patch_of_group[groups.find(e)];
+      if (patch == kNone) {
+        patch = static_cast<std::uint32_t>(mesh_.patch_shapes.size()) - surface_.patches.first;
+        mesh_.patch_shapes.push_back({node[e], true});
+      }
+      mesh_.shapes[surface_.elements.first + e].patch = patch;
+    }
+    surface_.patches.count = static_cast<std::uint32_t>(mesh_.patch_shapes.size()) - surface_.patches.first;
+    for (std::uint32_t p = 0; p < graph.parts.size(); ++p) {
+      const std::uint32_t patch_node = cell_patch_node_[graph.parts[p].cell];
+      PatchShape& own = mesh_.patch_shapes[surface_.patches.first + mesh_.shapes[surface_.elements.first + part_element_[p]].patch];
+      if (own.node != patch_node) own.whole = false;
+    }
+    markSharedNodes(graph);
   }
 
-  // The centroid, or where that falls outside the element, the centre of its largest piece.
-  void placeCentres(const std::vector<glm::dvec2>& moment, const std::vector<glm::dvec2>& largest_centre) {
-    for (std::uint32_t e = 0; e < surface_.elements.count; ++e) {
-      ElementShape& shape = mesh_.shapes[surface_.elements.first + e];
-      const glm::dvec2 centroid = moment[e] / shape.area;
-      const Cell& at = mesh_.cells[cellAt(surface_, centroid)];
-      bool inside = false;
-      if (at.element == e) {
-        for (std::uint32_t p = at.pieces.first; p < at.pieces.end() && !inside; ++p) {
-          const Range corners = mesh_.pieces[p].corners;
-          inside = contains({&mesh_.piece_corners[corners.first], corners.count}, centroid);
-        }
-      }
-      shape.centre = surface_.point(inside ? centroid : largest_centre[e]);
+  // A node that holds pieces of several patches is whole for none of them.
+  void markSharedNodes(const PartGraph& graph) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> seen;  // node, patch
+    for (std::uint32_t p = 0; p < graph.parts.size(); ++p) {
+      seen.emplace_back(cell_patch_node_[graph.parts[p].cell],
+                        mesh_.shapes[surface_.elements.first + part_element_[p]].patch);
     }
-  }
-
-  void dropEmptyPatches() {
-    const std::uint32_t all = static_cast<std::uint32_t>(mesh_.patch_nodes.size()) - surface_.patches.first;
-    std::vector<std::uint32_t> renumbered(all, kNone);
-    for (std::uint32_t e = 0; e < surface_.elements.count; ++e) {
-      renumbered[mesh_.shapes[surface_.elements.first + e].patch] = 0;
-    }
-    std::uint32_t kept = 0;
-    for (std::uint32_t p = 0; p < all; ++p) {
-      if (renumbered[p] == kNone) continue;
-      renumbered[p] = kept;
-      mesh_.patch_nodes[surface_.patches.first + kept++] = mesh_.patch_nodes[surface_.patches.first + p];
-    }
-    mesh_.patch_nodes.resize(surface_.patches.first + kept);
-    surface_.patches.count = kept;
-    for (std::uint32_t e = 0; e < surface_.elements.count; ++e) {
-      ElementShape& shape = mesh_.shapes[surface_.elements.first + e];
-      shape.patch = renumbered[shape.patch];
+    std::sort(seen.begin(), seen.end());
+    seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+      const bool alone = (k == 0 || seen[k - 1].first != seen[k].first) &&
+                         (k + 1 == seen.size() || seen[k + 1].first != seen[k].first);
+      if (!alone) mesh_.patch_shapes[surface_.patches.first + seen[k].second].whole = false;
     }
   }
 
@@ -302,18 +307,36 @@ class SurfaceGrid {
   std::uint32_t surface_index_;
   Surface& surface_;
   std::uint32_t patch_cells_;
+  const std::vector<ContactSegment>& contacts_;
+  double tolerance_;
   double du_ = 0, dv_ = 0;
-  std::vector<LoosePiece> loose_;
-  std::vector<PieceCorner> corners_;
-  std::vector<double> area_, group_area_;     // per cell
-  std::vector<std::uint32_t> group_;          // union-find over cells
-  std::vector<std::uint32_t> cell_patch_;     // local patch of each cell
+  std::vector<std::uint32_t> part_element_;     // local element of each part
+  std::vector<std::uint32_t> main_part_;        // largest part of each element
+  std::vector<std::uint32_t> cell_patch_node_;  // the node that is a patch above each cell
+  std::vector<double> cell_area_;
 };
 
 }  // namespace
 
-void gridSurface(Mesh& mesh, std::uint32_t surface, std::uint32_t nu, std::uint32_t nv, std::uint32_t patch_cells) {
-  SurfaceGrid(mesh, surface, patch_cells).run(nu, nv);
+void gridSurface(Mesh& mesh, std::uint32_t surface, std::uint32_t nu, std::uint32_t nv, std::uint32_t patch_cells,
+                 const std::vector<ContactSegment>& contacts, double tolerance) {
+  SurfaceGrid(mesh, surface, patch_cells, contacts, tolerance).run(nu, nv);
+}
+
+std::uint32_t elementAt(const Mesh& mesh, const Surface& s, const glm::dvec2& uv) {
+  const Cell& cell = mesh.cells[cellAt(s, uv)];
+  if (cell.element != kMixed) return cell.element;
+  std::uint32_t best = kNone;
+  double least = INFINITY;
+  for (std::uint32_t k = cell.pieces.first; k < cell.pieces.end(); ++k) {
+    const Range corners = mesh.pieces[k].corners;
+    const double outside = distanceOutside({&mesh.piece_corners[corners.first], corners.count}, uv);
+    if (outside >= least) continue;
+    least = outside;
+    best = mesh.pieces[k].element;
+    if (outside == 0) break;
+  }
+  return best;
 }
 
 }  // namespace unshot

@@ -2,12 +2,14 @@
 //
 // A surface is a connected set of coplanar polygons of one material. Its chart maps (u, v) in metres of the scene to
 // origin + u axis_u + v axis_v. Over the chart lies a grid of nu x nv cells, the leaves of a four-way tree of cell
-// rectangles; a cell is clipped by the surface's outline into convex pieces. An element is a cell, or several where clipped
-// cells would be slivers. A patch is an inner node of the tree: the source of light. Geometry is per surface; each side that
-// light can reach has its own elements and patches, numbered over the whole mesh.
+// rectangles; a cell is cut by the surface's outline and by contacts with other surfaces into convex pieces. An element is
+// what hangs together in a cell, or in several where it would be a sliver. A patch is what hangs together in an inner node of
+// the tree: the source of light. Geometry is per surface; each side that light can reach has its own elements and patches,
+// numbered over the whole mesh.
 #pragma once
 
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -34,10 +36,11 @@ struct Surface {
   std::uint32_t first_cell = 0;  ///< in Mesh::cells; cell (i, j) is first_cell + j nu + i
   std::uint32_t root = 0;        ///< in Mesh::nodes
   Range elements;                ///< in Mesh::shapes: the surface's elements, whatever the side
-  Range patches;                 ///< in Mesh::patch_nodes
+  Range patches;                 ///< in Mesh::patch_shapes
   std::uint32_t side[2] = {kNone, kNone};  ///< front, back: in Mesh::sides; kNone where no light can reach
 
   glm::dvec3 point(const glm::dvec2& uv) const { return origin + uv.x * axis_u + uv.y * axis_v; }
+  glm::dvec2 chart(const glm::dvec3& p) const { return {glm::dot(p - origin, axis_u), glm::dot(p - origin, axis_v)}; }
 };
 
 /// One side of a surface that light can reach.
@@ -58,13 +61,16 @@ struct ChartTriangle {
   bool outline[3];            ///< whether the edge from corner k to k + 1 lies on the surface's outline
 };
 
-/// A leaf of the tree: a grid cell clipped by the outline.
+inline constexpr std::uint32_t kMixed = kNone - 1;
+
+/// A leaf of the tree: a grid cell.
 struct Cell {
-  std::uint32_t element = kNone;  ///< local element (in the surface); kNone where the surface has no area here
+  std::uint32_t element = kNone;  ///< local element (in the surface); kNone: no area here; kMixed: ask the pieces
   Range pieces;                   ///< in Mesh::pieces
 };
 
-/// A corner of a piece; `outline`: the edge to the next corner lies on the surface's outline.
+/// A corner of a piece; `outline`: the edge to the next corner lies on the surface's outline or on a contact, so nothing is
+/// interpolated across it.
 struct PieceCorner {
   glm::dvec2 uv{0.0};
   bool outline = false;
@@ -74,6 +80,7 @@ struct PieceCorner {
 struct Piece {
   Range corners;  ///< in Mesh::piece_corners
   double area = 0;
+  std::uint32_t element = 0;  ///< local element
 };
 
 /// A node of a subdivision tree: the cells [u0, u1) x [v0, v1).
@@ -84,6 +91,12 @@ struct Node {
   std::uint32_t child_count = 0;
   double area = 0;  ///< inside the outline
   bool isCell() const { return u1 - u0 == 1 && v1 - v0 == 1; }
+};
+
+/// What both sides of a patch share.
+struct PatchShape {
+  std::uint32_t node = 0;
+  bool whole = true;  ///< every piece in the node is of this patch
 };
 
 /// What both sides of an element share.
@@ -123,7 +136,7 @@ struct Mesh {
   std::vector<Piece> pieces;
   std::vector<PieceCorner> piece_corners;
   std::vector<Node> nodes;
-  std::vector<std::uint32_t> patch_nodes;  ///< node of each local patch
+  std::vector<PatchShape> patch_shapes;    ///< local patches
   std::vector<ElementShape> shapes;        ///< local elements
 
   // Sides, and what is numbered over all of them.

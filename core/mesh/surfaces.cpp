@@ -40,14 +40,16 @@ class SurfaceMaker {
   SurfaceMaker(const Scene& scene, const WeldedScene& welded, Mesh& mesh)
       : scene_(scene), welded_(welded), mesh_(mesh), surface_of_(scene.polygons.size(), kNone) {}
 
-  std::vector<SmoothPair> run() {
+  SurfaceTopology run() {
     for (std::size_t p = 0; p < scene_.polygons.size(); ++p) planes_.push_back(planeOf(welded_, welded_.outline(p)));
     collectEdges();
     mesh_.positions = welded_.positions;
     for (std::uint32_t p = 0; p < scene_.polygons.size(); ++p) {
       if (surface_of_[p] == kNone && planes_[p].area > 0) growSurface(p);
     }
-    return smoothPairs();
+    SurfaceTopology out{smoothPairs(), {}};
+    for (const EdgeUse& e : edges_) out.edges.push_back({e.low, e.high, surface_of_[e.polygon]});
+    return out;
   }
 
  private:
@@ -241,7 +243,7 @@ class SurfaceMaker {
 
 }  // namespace
 
-std::vector<SmoothPair> makeSurfaces(const Scene& scene, const WeldedScene& welded, Mesh& mesh) {
+SurfaceTopology makeSurfaces(const Scene& scene, const WeldedScene& welded, Mesh& mesh) {
   return SurfaceMaker(scene, welded, mesh).run();
 }
 

@@ -16,9 +16,20 @@ struct SmoothPair {
   bool flipped = false;
 };
 
-/// Fills mesh.surfaces (material, chart, area, triangles), mesh.triangles and mesh.positions; returns the smooth pairs.
+/// An edge of a polygon of the scene and the surface it belongs to; an edge of n polygons stands n times.
+struct SurfaceEdge {
+  std::uint32_t a = 0, b = 0;  ///< in Mesh::positions
+  std::uint32_t surface = 0;
+};
+
+struct SurfaceTopology {
+  std::vector<SmoothPair> smooth_pairs;
+  std::vector<SurfaceEdge> edges;
+};
+
+/// Fills mesh.surfaces (material, chart, area, triangles), mesh.triangles and mesh.positions.
 /// Polygons are joined only across edges that exactly two polygons share: where a third stands on the edge (a wall on a
 /// floor), light on one side is not light on the other.
-std::vector<SmoothPair> makeSurfaces(const Scene& scene, const WeldedScene& welded, Mesh& mesh);
+SurfaceTopology makeSurfaces(const Scene& scene, const WeldedScene& welded, Mesh& mesh);
 
 }  // namespace unshot

@@ -148,9 +148,16 @@ class Builder {
     }
   }
 
-  /// Turns loop_ so that it begins at its first welded position and goes on to the earlier neighbour. So the
-  /// triangles of a face do not depend on where the file begins it or which way round it goes. Returns
-  /// whether it was turned over.
+  PolygonPlane planeOfLoop() {
+    points_.clear();
+    for (const std::uint32_t c : loop_) points_.push_back(numbers_.positions[numbers_.corner_positions[c]]);
+    return planeOf(points_);
+  }
+
+  /// Turns loop_ so that it begins at its first welded position and goes on to the earlier neighbour: so the
+  /// triangles of a planar face do not depend on where the file begins it or which way round it goes, and its
+  /// copies are found. (The shape of a face that is not planar depends on its triangles: there the file's
+  /// order is kept.) Returns whether it was turned over.
   bool makeCanonical() {
     const auto smallest = std::min_element(loop_.begin(), loop_.end(), [&](std::uint32_t a, std::uint32_t b) {
       return weldedAt(a) < weldedAt(b);
@@ -164,14 +171,17 @@ class Builder {
   /// Adds the triangles of loop_; returns whether they make one planar, simple polygon.
   bool splitFace(std::uint32_t line) {
     if (loop_.size() < 3) return false;
-    const bool turned = makeCanonical();
-    points_.clear();
-    for (const std::uint32_t c : loop_) points_.push_back(numbers_.positions[numbers_.corner_positions[c]]);
-    const PolygonPlane plane = planeOf(points_);
+    PolygonPlane plane = planeOfLoop();
     if (plane.flat) return false;
     if (loop_.size() == 3) {
-      addTriangle({0, 1, 2}, turned);
+      addTriangle({0, 1, 2}, false);
       return true;
+    }
+    const bool planar = plane.thickness <= kPlanarity * plane.size;
+    bool turned = false;
+    if (planar) {
+      turned = makeCanonical();
+      plane = planeOfLoop();
     }
     projectOnto(plane, points_, outline_);
     const auto triangles = triangulate(outline_);
@@ -183,7 +193,6 @@ class Builder {
     }
     const bool simple =
         triangles.size() == loop_.size() - 2 && std::abs(area - plane.area) <= kAreaAgreement * plane.area;
-    const bool planar = plane.thickness <= kPlanarity * plane.size;
     if (!triangles.empty() && !simple) not_simple_.add(line);
     if (!planar) not_planar_.add(line);
     return simple && planar;

@@ -23,6 +23,10 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// about.
 constexpr double kFlatness = 1e-11;
 
+/// A later candidate has to be better by this factor: neither rounding nor the slight warp of a face that is
+/// not quite planar decides, and near-ties are cut from the first corner on, as most programs do.
+constexpr double kClearlyBetter = 1 + 1e-3;
+
 /// How often all ears are looked at again when none is left: simple outlines need this never, rounding
 /// rarely.
 constexpr int kRescans = 8;
@@ -54,17 +58,21 @@ class EarClipper {
         next_(outline.size()),
         height_(outline.size()),
         quality_(outline.size()),
+        removed_(outline.size(), false),
+        suspects_(outline.size()),
         remaining_(static_cast<std::uint32_t>(outline.size())) {
     const auto n = static_cast<std::uint32_t>(outline.size());
     for (std::uint32_t i = 0; i < n; ++i) {
       prev_[i] = (i + n - 1) % n;
       next_[i] = (i + 1) % n;
+      suspects_[i] = i;
     }
   }
 
   std::vector<Triangle> run() {
     triangles_.reserve(points_.size() - 2);
     rescan();
+    dropSpikes();
     int rescans_left = kRescans;
     while (remaining_ >= 3) {
       std::optional<std::uint32_t> tip = bestTip();
@@ -82,6 +90,7 @@ class EarClipper {
       } else {
         remove(flattestCorner());
       }
+      dropSpikes();
     }
     return std::move(triangles_);
   }
@@ -164,7 +173,7 @@ class EarClipper {
     double best_quality = 0.0;
     std::uint32_t i = first_;
     do {
-      if (quality_[i] > best_quality) {
+      if (quality_[i] > best_quality * kClearlyBetter) {
         best_quality = quality_[i];
         best = i;
       }
@@ -209,6 +218,26 @@ class EarClipper {
     measure(c);
     assess(a);
     assess(c);
+    suspects_.push_back(a);
+    suspects_.push_back(c);
+    removed_[b] = true;
+  }
+
+  /// A corner on the one before it, or where the outline goes back on itself: it encloses nothing, yet
+  /// triangles beside it would have an area.
+  bool isSpike(std::uint32_t b) const {
+    const glm::dvec2 &pa = at(prev_[b]), &pb = at(b), &pc = at(next_[b]);
+    if (coincide(prev_[b], pb)) return true;
+    return std::abs(height_[b]) <= tolerance_ && glm::dot(pa - pb, pc - pb) > 0;
+  }
+
+  /// Removes spikes among the corners that have new neighbours. A simple outline has none.
+  void dropSpikes() {
+    while (!suspects_.empty() && remaining_ >= 3) {
+      const std::uint32_t b = suspects_.back();
+      suspects_.pop_back();
+      if (!removed_[b] && isSpike(b)) remove(b);
+    }
   }
 
   std::span<const glm::dvec2> points_;
@@ -216,6 +245,8 @@ class EarClipper {
   std::vector<std::uint32_t> prev_, next_;
   std::vector<double> height_;   ///< of each corner's triangle, negative where reflex
   std::vector<double> quality_;  ///< of each ear, -1 where the corner is none
+  std::vector<bool> removed_;
+  std::vector<std::uint32_t> suspects_;  ///< corners whose neighbours are new
   std::uint32_t first_ = 0;
   std::uint32_t remaining_;
   std::vector<Triangle> triangles_;
@@ -239,8 +270,7 @@ std::vector<Triangle> splitQuad(std::span<const glm::dvec2> outline) {
   };
   const double even_quality = worst(even), odd_quality = worst(odd);
   if (!(even_quality > 0) && !(odd_quality > 0)) return {};
-  // Rounding must not decide about rectangles.
-  const auto& best = odd_quality > even_quality * (1 + 1e-9) ? odd : even;
+  const auto& best = odd_quality > even_quality * kClearlyBetter ? odd : even;
   return {best.begin(), best.end()};
 }
 

@@ -1,4 +1,5 @@
-// Triangulation of simple polygons by ear clipping, keeping collinear corners (T-vertices stay corners of triangles).
+// Triangulation of simple polygons by ear clipping, keeping collinear corners (T-vertices stay corners of
+// triangles).
 #pragma once
 
 #include <array>
@@ -9,9 +10,9 @@
 
 namespace unshot {
 
-/// Triangles (indices into `outline`, counter-clockwise) of a simple polygon given counter-clockwise. Collinear corners are
-/// kept as corners; no triangle of zero area is made as long as the outline is simple. n - 2 triangles for n corners (fewer
-/// where the outline is degenerate).
+/// Triangles (indices into `outline`, counter-clockwise) of a simple polygon given counter-clockwise.
+/// Collinear corners are kept as corners; no triangle of zero area is made as long as the outline is simple.
+/// n - 2 triangles for n corners (fewer where the outline is degenerate).
 std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const glm::dvec2> outline);
 
 }  // namespace unshot

@@ -1,0 +1,139 @@
+#include "mesh/contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "base/box_tree.h"
+#include "mesh/clip.h"
+
+namespace unshot {
+namespace {
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+
+// The part of the line a + t d (|d| = 1) inside a convex polygon: t in [first, second]; empty where first >= second.
+std::pair<double, double> insideRange(const ConvexPolygon& polygon, const glm::dvec2& a, const glm::dvec2& d) {
+  double first = -INFINITY, second = INFINITY;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const glm::dvec2 p = polygon[k].uv, edge = polygon[(k + 1) % polygon.size()].uv - p;
+    const double distance = cross(edge, a - p), speed = cross(edge, d);  // inside where distance + t speed >= 0
+    if (speed == 0) {
+      if (distance < 0) return {0, 0};
+      continue;
+    }
+    const double t = -distance / speed;
+    if (speed > 0) {
+      first = std::max(first, t);
+    } else {
+      second = std::min(second, t);
+    }
+  }
+  return {first, second};
+}
+
+// Both halves of a polygon along a line; a half without area is dropped.
+void halve(const ConvexPolygon& in, const glm::dvec2& a, const glm::dvec2& d, double tolerance,
+           std::vector<ConvexPolygon>& out) {
+  std::vector<double> height(in.size());
+  double low = 0, high = 0;
+  for (std::size_t k = 0; k < in.size(); ++k) {
+    height[k] = cross(d, in[k].uv - a);
+    if (std::abs(height[k]) <= tolerance) height[k] = 0;
+    low = std::min(low, height[k]);
+    high = std::max(high, height[k]);
+  }
+  if (low == 0 || high == 0) {
+    out.push_back(in);
+    return;
+  }
+  for (const double sign : {1.0, -1.0}) {
+    ConvexPolygon half;
+    for (std::size_t k = 0; k < in.size(); ++k) {
+      const std::size_t next = (k + 1) % in.size();
+      const double h0 = sign * height[k], h1 = sign * height[next];
+      if (h0 >= 0) half.push_back({in[k].uv, h0 == 0 && h1 < 0 ? false : in[k].outline});
+      if ((h0 > 0 && h1 < 0) || (h0 < 0 && h1 > 0)) {
+        // The same point from either half and from the neighbour across the edge.
+        const bool turned = in[next].uv.x < in[k].uv.x || (in[next].uv.x == in[k].uv.x && in[next].uv.y < in[k].uv.y);
+        const glm::dvec2 p = turned ? in[next].uv : in[k].uv, q = turned ? in[k].uv : in[next].uv;
+        const double hp = turned ? height[next] : height[k], hq = turned ? height[k] : height[next];
+        half.push_back({p + hp / (hp - hq) * (q - p), h0 < 0 && in[k].outline});
+      }
+    }
+    if (half.size() >= 3 && polygonArea(half) > 0) out.push_back(std::move(half));
+  }
+}
+
+bool onSegment(const glm::dvec2& p, const ContactSegment& s, double tolerance) {
+  const glm::dvec2 d = s.b - s.a;
+  const double length = glm::length(d), along = glm::dot(p - s.a, d) / length;
+  return std::abs(cross(d, p - s.a)) / length <= tolerance && along >= -tolerance && along <= length + tolerance;
+}
+
+}  // namespace
+
+std::vector<std::vector<ContactSegment>> findContacts(const Mesh& mesh, const std::vector<SurfaceEdge>& edges,
+                                                      double distance) {
+  std::vector<Box> boxes;
+  boxes.reserve(edges.size());
+  for (const SurfaceEdge& e : edges) {
+    const glm::dvec3 &p = mesh.positions[e.a], &q = mesh.positions[e.b];
+    boxes.push_back({glm::min(p, q), glm::max(p, q)});
+  }
+  const BoxTree tree(std::move(boxes));
+  std::vector<std::vector<ContactSegment>> out(mesh.surfaces.size());
+  for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
+    const Surface& surface = mesh.surfaces[s];
+    Box box{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
+    for (std::uint32_t t = surface.triangles.first; t < surface.triangles.end(); ++t) {
+      for (const std::uint32_t v : mesh.triangles[t].position) {
+        box.low = glm::min(box.low, mesh.positions[v] - distance);
+        box.high = glm::max(box.high, mesh.positions[v] + distance);
+      }
+    }
+    tree.overlapping(box, [&](std::uint32_t index) {
+      const SurfaceEdge& e = edges[index];
+      if (e.surface == s) return;
+      const glm::dvec3 p = mesh.positions[e.a] - surface.origin, q = mesh.positions[e.b] - surface.origin;
+      if (std::abs(glm::dot(p, surface.normal)) > distance || std::abs(glm::dot(q, surface.normal)) > distance) return;
+      const ContactSegment segment{{glm::dot(p, surface.axis_u), glm::dot(p, surface.axis_v)},
+                                   {glm::dot(q, surface.axis_u), glm::dot(q, surface.axis_v)}};
+      const auto outside = [&](int axis) {
+        return std::max(segment.a[axis], segment.b[axis]) <= distance ||
+               std::min(segment.a[axis], segment.b[axis]) >= surface.extent[axis] - distance;
+      };
+      if (!outside(0) && !outside(1)) out[s].push_back(segment);
+    });
+  }
+  return out;
+}
+
+void cutByContacts(std::vector<ConvexPolygon>& polygons, const std::vector<ContactSegment>& contacts, double tolerance) {
+  std::vector<ConvexPolygon> next;
+  std::vector<const ContactSegment*> near;
+  for (const ContactSegment& segment : contacts) {
+    const double length = glm::distance(segment.a, segment.b);
+    const glm::dvec2 d = (segment.b - segment.a) / length;
+    const bool passes = std::any_of(polygons.begin(), polygons.end(), [&](const ConvexPolygon& p) {
+      const auto [first, second] = insideRange(p, segment.a, d);
+      return std::min(second, length + tolerance) - std::max(first, -tolerance) > 2 * tolerance;
+    });
+    if (!passes) continue;
+    near.push_back(&segment);
+    next.clear();
+    for (const ConvexPolygon& p : polygons) halve(p, segment.a, d, tolerance, next);
+    polygons.swap(next);
+  }
+  if (near.empty()) return;
+  for (ConvexPolygon& p : polygons) {
+    for (std::size_t k = 0; k < p.size(); ++k) {
+      const glm::dvec2 &a = p[k].uv, &b = p[(k + 1) % p.size()].uv;
+      p[k].outline = p[k].outline || std::any_of(near.begin(), near.end(), [&](const ContactSegment* s) {
+                       return onSegment(a, *s, 2 * tolerance) && onSegment(b, *s, 2 * tolerance);
+                     });
+    }
+  }
+}
+
+}  // namespace unshot
