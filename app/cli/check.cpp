@@ -5,6 +5,7 @@
 #include "cli/commands.h"
 #include "cli/gl_context.h"
 #include "cli/options.h"
+#include "cli/summary.h"
 #include "cli/text.h"
 #include "exit_codes.h"
 #include "report/report_json.h"
@@ -18,11 +19,6 @@ struct CheckRequest {
   std::string scene;
   bool json = false;
 };
-
-/// Labels of repeated lines stand only in the first.
-void addLine(Lines& lines, const std::string& label, const std::string& value, bool first) {
-  lines.emplace_back(first ? label : "", value);
-}
 
 void printCheck(const Scene& scene, const Diagnostics& diagnostics, const std::vector<PlanDecision>& plan) {
   const SceneFigures figures = figuresOf(scene);
@@ -40,11 +36,7 @@ void printCheck(const Scene& scene, const Diagnostics& diagnostics, const std::v
                  {"area", figureText(figures.area) + " m^2 (one side)"},
                  {"closed", figures.closed() ? "yes: every edge joins an even number of polygons"
                                              : "not shown: " + countedText(figures.open_edges, "open edge")}};
-  bool first = true;
-  for (const PlanDecision& decision : plan) {
-    const std::string saving = decision.saving.empty() ? "" : " (" + decision.saving + ")";
-    addLine(lines, "plan", decision.what + ": " + decision.why + saving, std::exchange(first, false));
-  }
+  for (const PlanDecision& decision : plan) lines.emplace_back("plan", planText(decision));
   printLines(std::cout, lines);
   if (diagnostics.empty()) {
     std::cout << "\nNothing is wrong with this scene.\n";

@@ -4,9 +4,11 @@
 #include <array>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <vector>
 
 #include "base/error.h"
+#include "base/parse.h"
 #include "cli/commands.h"
 #include "exit_codes.h"
 
@@ -25,7 +27,7 @@ constexpr std::array<Command, 5> kCommands = {{{"view", addViewCommand},
                                                {"list", addListCommand}}};
 
 constexpr const char* kFooter =
-    "Without a command, `unshot SCENE.obj` opens the viewer.\n"
+    "unshot COMMAND --help says more. Without a command, the viewer opens.\n"
     "\n"
     "Exit codes: 0 done, 1 internal error, 2 usage, 3 input, 4 environment, 5 not converged\n"
     "within the limits given, 6 comparison failed, 130 interrupted. After 5 and 130 the\n"
@@ -36,6 +38,23 @@ std::string commandNames() {
   for (const Command& command : kCommands) names += (names.empty() ? "" : ", ") + std::string(command.name);
   return names;
 }
+
+/// CLI11's help with our words.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  HelpFormatter() {
+    column_width(26);
+    label("Positionals", "Arguments");
+    label("OPTIONS", "options");
+  }
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    if (app->get_parent()) return CLI::Formatter::make_usage(app, name);
+    return "Usage: unshot [SCENE.obj]\n       unshot COMMAND [options]\n";
+  }
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    return CLI::detail::find_and_replace(CLI::Formatter::make_help(app, name, mode), "\n\n\n", "\n\n");
+  }
+};
 
 /// The arguments without the program's name, with `view` put first where no command is named.
 std::vector<std::string> argumentsOf(int argc, const char* const* argv) {
@@ -65,9 +84,11 @@ std::string messageOf(const CLI::ParseError& error) {
   const std::string name = text.substr(0, text.find(':'));
   if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
     const std::string extra = text.substr(text.rfind(": ") + 2);
-    const std::string first = extra.substr(0, extra.find(' '));
-    return first.starts_with('-') ? "there is no option '" + first + "'"
-                                  : "'" + first + "' is one argument too many";
+    // An unknown option leaves its value behind as well; the option is what to name.
+    for (const std::string_view word : splitParts(extra, ' ')) {
+      if (word.starts_with('-')) return "there is no option '" + std::string(word) + "'";
+    }
+    return "'" + extra.substr(0, extra.find(' ')) + "' is one argument too many";
   }
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
     return text.find("At Most") != std::string::npos ? name + " may be given only once"
@@ -98,11 +119,14 @@ int runCommandLine(int argc, const char* const* argv) {
                "unshot");
   app.set_version_flag("--version", std::string("unshot ") + UNSHOT_VERSION, "Print the version and end");
   app.set_help_flag("-h,--help", "Print this help and end");
-  app.get_formatter()->column_width(26);
+  app.formatter(std::make_shared<HelpFormatter>());
   app.footer(kFooter);
   app.require_subcommand(1);
   Run run;
-  for (const Command& command : kCommands) command.add(app, run);
+  for (const Command& command : kCommands) {
+    command.add(app, run);
+    app.get_subcommand(std::string(command.name))->group("Commands");
+  }
   try {
     // CLI11 takes the arguments from the end.
     std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());

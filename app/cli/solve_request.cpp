@@ -33,15 +33,17 @@ Check emitText() {
 bool samePath(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code error;
   if (std::filesystem::equivalent(a, b, error)) return std::filesystem::is_regular_file(a, error);
-  return std::filesystem::weakly_canonical(a, error) == std::filesystem::weakly_canonical(b, error) &&
-         !std::filesystem::exists(a, error);
+  const auto canonical = [&](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
+  };
+  return canonical(a) == canonical(b) && !std::filesystem::exists(a, error);
 }
 
 }  // namespace
 
 bool SolveRequest::needsPicture() const {
   return std::any_of(outputs.begin(), outputs.end(),
-                     [](const Output& o) { return o.exporter->needs_picture; });
+                     [](const Output& o) { return o.exporter->needs != PictureNeed::kNoPicture; });
 }
 
 SolveArguments::SolveArguments(CLI::App& command) : outputs_(exporters().size()) {
@@ -124,22 +126,22 @@ void SolveArguments::addOutputs(CLI::App& command) {
 
 void SolveArguments::addPicture(CLI::App& command) {
   const std::string group = "The picture";
-  addOption(command, "--size", size_, "WxH", "Size in pixels (default 800x600)", sizeText())->group(group);
-  addOption(command, "--eye", eye_, "x,y,z",
-            "Where the viewer stands, in file coordinates (default: sees the scene)", vectorText())
+  addOption(command, "--size", size_, "WxH", "Size in pixels (default 1280x960)", sizeText())->group(group);
+  addOption(command, "--eye", eye_, "x,y,z", "Where the viewer stands, in file coordinates (default: chosen)",
+            vectorText())
       ->group(group);
-  addOption(command, "--at", at_, "x,y,z",
-            "What the viewer looks at, in file coordinates (default: the scene's centre)", vectorText())
+  addOption(command, "--at", at_, "x,y,z", "What the viewer looks at, in file coordinates (default: chosen)",
+            vectorText())
       ->group(group);
   addOption(command, "--up", up_, "x,y,z", "What is upwards (default 0,1,0)", vectorText())->group(group);
-  addOption(command, "--fov", picture_.fov_deg, "D", "Vertical angle of view, 1 to 170 degrees (default 40)",
-            numberWithin(1, 170, "degrees"))
+  addOption(command, "--fov", picture_.fov_deg, "D",
+            "Vertical angle of view, 1 to 170 degrees (default: chosen)", numberWithin(1, 170, "degrees"))
       ->group(group);
   addOption(command, "--display", picture_.display, "MODE",
             "What is shown: " + keysOf(displayModes(), false) + " (default radiosity)",
             keyOf(displayModes(), false))
       ->group(group);
-  addOption(command, "--exposure", picture_.exposure_stops, "EV",
+  addOption(command, "--exposure", picture_.exposure_ev, "EV",
             "Stops brighter than the automatic exposure (default 0)", numberWithin(-100, 100, "stops"))
       ->group(group);
   command
@@ -159,6 +161,7 @@ SolveRequest SolveArguments::request() const {
   request.shader_dir = shader_dir_;
   request.probe = probe_;
   request.picture = picture_;
+  request.picture.linear = false;
   if (!size_.empty()) {
     const std::vector<std::string_view> parts = splitParts(size_, 'x');
     request.picture.width = static_cast<int>(*parseNumber(parts[0]));
@@ -167,7 +170,7 @@ SolveRequest SolveArguments::request() const {
   request.picture.eye = vectorOf(eye_);
   request.picture.at = vectorOf(at_);
   request.picture.up = vectorOf(up_);
-  const PictureRequest& picture = request.picture;
+  const PictureOptions& picture = request.picture;
   if (picture.eye && picture.at && *picture.eye == *picture.at) {
     refuse("--eye and --at are the same point", "a point in front of the viewer for --at");
   }
@@ -178,7 +181,9 @@ SolveRequest SolveArguments::request() const {
     refuse("--up is along the line of sight", "another direction for --up");
   }
   for (std::size_t k = 0; k < outputs_.size(); ++k) {
-    if (!outputs_[k].empty()) request.outputs.push_back({&exporters()[k], outputs_[k]});
+    if (outputs_[k].empty()) continue;
+    request.outputs.push_back({&exporters()[k], outputs_[k]});
+    request.picture.linear = request.picture.linear || exporters()[k].needs == PictureNeed::kLinear;
   }
   return request;
 }

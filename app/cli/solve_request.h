@@ -2,27 +2,16 @@
 #pragma once
 
 #include <filesystem>
-#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/options.h"
 #include "export/exporters.h"
+#include "render/picture.h"
 #include "session/solve.h"
 
 namespace unshot {
-
-/// The picture as asked for; points in the file's own coordinates. What is not given is chosen from the
-/// scene.
-struct PictureRequest {
-  int width = 800, height = 600;
-  std::optional<glm::dvec3> eye, at, up;
-  std::optional<double> fov_deg;
-  std::string display = "radiosity";
-  double exposure_stops = 0;
-  bool ambient = false;
-};
 
 /// A file to be written.
 struct Output {
@@ -35,7 +24,7 @@ struct SolveRequest {
   SolveOptions options;
   std::string gl = "auto";
   std::filesystem::path shader_dir;
-  PictureRequest picture;
+  PictureOptions picture;
   std::filesystem::path probe;
   std::vector<Output> outputs;
 
@@ -59,7 +48,7 @@ class SolveArguments {
   SolveOptions options_;
   std::string scene_, gl_ = "auto", shader_dir_, probe_, emit_ = "both";
   std::optional<std::uint64_t> kept_mb_;
-  PictureRequest picture_;
+  PictureOptions picture_;
   std::string size_, eye_, at_, up_;
   std::vector<std::string> outputs_;  ///< one per exporter, empty where not asked for
 };

@@ -1,0 +1,298 @@
+#include "render/automatic_camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "base/colour.h"
+#include "gl/objects.h"
+#include "render/targets.h"
+
+namespace unshot {
+namespace {
+
+constexpr int kLookHeight = 72;
+constexpr double kNear = 0.1;              // of the scene's diagonal: nearer things block the view
+constexpr double kDark = 0.05;             // of the median luminance of the sides
+constexpr double kDrawnTriangles = 1.2e7;  // all candidates together: about a second in software
+constexpr std::size_t kFewestCandidates = 20;
+
+// The scene's polygons with their sides, drawn as ids.
+class SidePictures {
+ public:
+  SidePictures(gl::Context& context, const Mesh& mesh, int width)
+      : context_(context),
+        bounds_{mesh.bounds_min, mesh.bounds_max},
+        program_(context, {"side_id.vert", "side_id.frag"}),
+        vertices_(context),
+        vertex_array_(context),
+        ids_(context),
+        depth_(context),
+        framebuffer_(context),
+        width_(width) {
+    upload(mesh);
+    const gl::Functions& fn = context.functions();
+    fn.BindTexture(GL_TEXTURE_2D, ids_.id());
+    fn.TexImage2D(GL_TEXTURE_2D, 0, GL_R32UI, width, kLookHeight, 0, GL_RED_INTEGER, GL_UNSIGNED_INT,
+                  nullptr);
+    fn.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    fn.BindTexture(GL_TEXTURE_2D, 0);
+    fn.BindRenderbuffer(GL_RENDERBUFFER, depth_.id());
+    fn.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, width, kLookHeight);
+    fn.BindRenderbuffer(GL_RENDERBUFFER, 0);
+    fn.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
+    fn.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, ids_.id(), 0);
+    fn.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
+    framebuffer_.checkComplete("a picture of ids");
+  }
+
+  GLsizei triangles() const { return vertex_count_ / 3; }
+
+  std::vector<std::uint32_t> look(const Camera& camera) {
+    const gl::Functions& fn = context_.functions();
+    fn.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
+    fn.Viewport(0, 0, width_, kLookHeight);
+    setPassState(fn, true);
+    const GLuint nothing[4] = {};
+    const GLfloat farthest = 1;
+    fn.ClearBufferuiv(GL_COLOR, 0, nothing);
+    fn.ClearBufferfv(GL_DEPTH, 0, &farthest);
+    program_.use();
+    const double aspect = static_cast<double>(width_) / kLookHeight;
+    const glm::mat4 matrix = viewProjection(camera, aspect, bounds_);
+    fn.UniformMatrix4fv(program_.uniform("view_projection"), 1, GL_FALSE, glm::value_ptr(matrix));
+    fn.BindVertexArray(vertex_array_.id());
+    fn.DrawArrays(GL_TRIANGLES, 0, vertex_count_);
+    fn.BindVertexArray(0);
+    std::vector<std::uint32_t> ids(static_cast<std::size_t>(width_) * kLookHeight);
+    fn.ReadPixels(0, 0, width_, kLookHeight, GL_RED_INTEGER, GL_UNSIGNED_INT, ids.data());
+    return ids;
+  }
+
+ private:
+  struct IdVertex {
+    glm::vec3 position;
+    std::uint32_t side;
+  };
+
+  void upload(const Mesh& mesh) {
+    std::vector<IdVertex> vertices;
+    for (std::uint32_t s = 0; s < mesh.sides.size(); ++s) {
+      const Surface& surface = mesh.surfaces[mesh.sides[s].surface];
+      for (std::uint32_t t = surface.triangles.first; t < surface.triangles.end(); ++t) {
+        const ChartTriangle& triangle = mesh.triangles[t];
+        for (int k = 0; k < 3; ++k) {
+          const int corner = mesh.sides[s].back ? 2 - k : k;
+          vertices.push_back({glm::vec3(mesh.positions[triangle.position[corner]]), s});
+        }
+      }
+    }
+    vertex_count_ = static_cast<GLsizei>(vertices.size());
+    const gl::Functions& fn = context_.functions();
+    fn.BindVertexArray(vertex_array_.id());
+    fn.BindBuffer(GL_ARRAY_BUFFER, vertices_.id());
+    fn.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(IdVertex)),
+                  vertices.data(), GL_STATIC_DRAW);
+    fn.EnableVertexAttribArray(0);
+    fn.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(IdVertex), nullptr);
+    fn.EnableVertexAttribArray(1);
+    fn.VertexAttribIPointer(1, 1, GL_UNSIGNED_INT, sizeof(IdVertex),
+                            reinterpret_cast<const void*>(offsetof(IdVertex, side)));
+    fn.BindBuffer(GL_ARRAY_BUFFER, 0);
+    fn.BindVertexArray(0);
+  }
+
+  gl::Context& context_;
+  Bounds bounds_;
+  gl::Program program_;
+  gl::Buffer vertices_;
+  gl::VertexArray vertex_array_;
+  gl::Texture ids_;
+  gl::Renderbuffer depth_;
+  gl::Framebuffer framebuffer_;
+  int width_;
+  GLsizei vertex_count_ = 0;
+};
+
+// Distance along the unit direction `ray` to the side's plane.
+double distanceTo(const Mesh& mesh, std::uint32_t side, const glm::dvec3& eye, const glm::dvec3& ray) {
+  const Surface& surface = mesh.surfaces[mesh.sides[side].surface];
+  const double along = glm::dot(ray, surface.normal);
+  return along == 0 ? 0 : glm::dot(surface.origin - eye, surface.normal) / along;
+}
+
+double medianPositive(std::span<const SideLook> looks) {
+  std::vector<double> values;
+  for (const SideLook& look : looks) {
+    if (look.luminance > 0 && !look.emits) values.push_back(look.luminance);
+  }
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double score(const ViewFigures& figures, const ViewFigures& best) {
+  const auto relative = [](double value, double largest) { return largest > 0 ? value / largest : 0; };
+  return figures.lit + 0.3 * figures.covered + 0.4 * relative(figures.variety, best.variety) +
+         0.7 * relative(figures.seen, best.seen) + 0.3 * figures.contrast +
+         0.3 * relative(figures.lamps, best.lamps) - 0.8 * figures.blocked;
+}
+
+}  // namespace
+
+std::vector<SideLook> sideLooks(const Snapshot& snapshot) {
+  const Mesh& mesh = *snapshot.mesh;
+  std::vector<SideLook> looks(mesh.sides.size());
+  std::vector<double> sums(mesh.sides.size(), 0.0);
+  for (std::size_t e = 0; e < std::min(snapshot.element_irradiance.size(), mesh.element_side.size()); ++e) {
+    const double h =
+        luminance(glm::dvec3(snapshot.element_irradiance[e]) * mesh.sides[mesh.element_side[e]].reflectance);
+    if (std::isfinite(h)) sums[mesh.element_side[e]] += mesh.element_area[e] * h;
+  }
+  for (std::size_t s = 0; s < looks.size(); ++s) {
+    const Side& side = mesh.sides[s];
+    SideLook& look = looks[s];
+    look.area = mesh.surfaces[side.surface].area;
+    look.emits = luminance(side.emission) > 0;
+    look.luminance = (look.area > 0 ? sums[s] / look.area : 0) + luminance(side.emission);
+  }
+  return looks;
+}
+
+std::vector<CameraCandidate> cameraCandidates(const Bounds& bounds, const AutomaticCameraOptions& options) {
+  const ViewBasis level = viewBasis({{0, 0, 0}, {0, 0, -1}, options.up, 40});
+  const glm::dvec3 up = glm::normalize(options.up);
+  const auto heading = [&](double azimuth_deg, double elevation_deg) {
+    const double a = azimuth_deg * glm::pi<double>() / 180;
+    const double e = elevation_deg * glm::pi<double>() / 180;
+    const glm::dvec3 forward = glm::normalize(glm::cross(up, level.right));
+    return std::cos(e) * (std::cos(a) * forward + std::sin(a) * level.right) - std::sin(e) * up;
+  };
+  std::vector<CameraCandidate> candidates;
+  const double outside_fov = options.fov_deg.value_or(40);
+  const double inside_fov = options.fov_deg.value_or(65);
+  // From outside: straight at the four faces (how the Cornell box is published), then from above.
+  for (int azimuth = 0; azimuth < 360; azimuth += 90) {
+    candidates.push_back(
+        {frameBounds(bounds, heading(azimuth, 0), options.up, outside_fov, options.aspect, 0.98), 0.15});
+  }
+  for (int azimuth = 30; azimuth < 390; azimuth += 60) {
+    candidates.push_back(
+        {frameBounds(bounds, heading(azimuth, 28), options.up, outside_fov, options.aspect, 1.0), 0.0});
+  }
+  // From the corners and the middles of the faces, a little inside, across the scene.
+  const glm::dvec3 centre = bounds.centre();
+  const glm::dvec3 half = 0.5 * (bounds.max - bounds.min);
+  for (const double height : {0.2, 0.6}) {
+    for (int k = 0; k < 8; ++k) {
+      const glm::dvec3 way = -heading(45 * k, 0);
+      // To the box's wall along the way, in the plane across `up`.
+      double reach = 1e300;
+      for (int i = 0; i < 3; ++i) {
+        if (std::abs(way[i]) > 1e-9) reach = std::min(reach, half[i] / std::abs(way[i]));
+      }
+      const double up_reach = glm::dot(glm::abs(up), half);
+      Camera camera;
+      camera.eye = centre + 0.88 * reach * way + height * up_reach * up;
+      camera.at = centre - 0.3 * reach * way - 0.25 * up_reach * up;
+      camera.up = options.up;
+      camera.fov_deg = inside_fov;
+      candidates.push_back({camera, 0.0});
+    }
+  }
+  for (int azimuth = 0; azimuth < 360; azimuth += 60) {
+    candidates.push_back(
+        {frameBounds(bounds, heading(azimuth, 48), options.up, outside_fov, options.aspect, 1.0), 0.0});
+  }
+  return candidates;
+}
+
+ViewFigures judgeView(std::span<const std::uint32_t> ids, int width, int height, const Camera& camera,
+                      const Mesh& mesh, std::span<const SideLook> looks) {
+  const Bounds bounds{mesh.bounds_min, mesh.bounds_max};
+  const ViewBasis basis = viewBasis(camera);
+  const double tan_y = std::tan(0.5 * camera.fov_deg * glm::pi<double>() / 180);
+  const double aspect = static_cast<double>(width) / height;
+  const double median = medianPositive(looks);
+  std::vector<std::uint32_t> pixels_of(mesh.sides.size(), 0);
+  double covered = 0, lit = 0, lamps = 0, blocked = 0, log_count = 0, log_sum = 0, log_squares = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const std::uint32_t id =
+          ids[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+      if (id == 0) continue;
+      const SideLook& look = looks[id - 1];
+      ++pixels_of[id - 1];
+      ++covered;
+      if (look.emits) ++lamps;
+      if (median == 0 || look.luminance > kDark * median) ++lit;
+      if (look.luminance > 0 && !look.emits) {
+        const double l = std::log(look.luminance);
+        ++log_count;
+        log_sum += l;
+        log_squares += l * l;
+      }
+      const glm::dvec3 ray =
+          glm::normalize(basis.forward + tan_y * (aspect * ((2 * x + 1.0) / width - 1) * basis.right +
+                                                  ((2 * y + 1.0) / height - 1) * basis.up));
+      if (distanceTo(mesh, id - 1, camera.eye, ray) < kNear * bounds.diagonal()) ++blocked;
+    }
+  }
+  ViewFigures figures;
+  if (covered == 0) return figures;
+  const double all = static_cast<double>(width) * height;
+  figures.covered = covered / all;
+  figures.lit = lit / all;
+  figures.blocked = blocked / all;
+  figures.lamps = std::sqrt(std::min(1.0, lamps / (0.01 * all)));
+  if (log_count > 0) {
+    const double mean = log_sum / log_count;
+    figures.contrast = std::min(1.0, std::sqrt(std::max(0.0, log_squares / log_count - mean * mean)));
+  }
+  double entropy = 0, seen = 0, total = 0;
+  for (std::size_t s = 0; s < pixels_of.size(); ++s) {
+    total += looks[s].area;
+    if (pixels_of[s] == 0) continue;
+    const double share = pixels_of[s] / covered;
+    entropy -= share * std::log(share);
+    seen += looks[s].area * std::min(1.0, pixels_of[s] / 4.0);
+  }
+  figures.variety = std::min(1.0, entropy / std::log(64.0));
+  figures.seen = total > 0 ? seen / total : 0;
+  return figures;
+}
+
+Camera automaticCamera(gl::Context& context, const Snapshot& snapshot,
+                       const AutomaticCameraOptions& options) {
+  const Mesh& mesh = *snapshot.mesh;
+  std::vector<CameraCandidate> candidates = cameraCandidates({mesh.bounds_min, mesh.bounds_max}, options);
+  const StateGuard guard(context.functions());
+  const int width = std::clamp(static_cast<int>(std::lround(kLookHeight * options.aspect)), 8, 1024);
+  SidePictures pictures(context, mesh, width);
+  if (pictures.triangles() == 0) return candidates.front().camera;
+  const auto affordable = static_cast<std::size_t>(kDrawnTriangles / pictures.triangles());
+  candidates.resize(std::min(candidates.size(), std::max(kFewestCandidates, affordable)));
+
+  const std::vector<SideLook> looks = sideLooks(snapshot);
+  std::vector<ViewFigures> figures;
+  ViewFigures best;
+  for (const CameraCandidate& candidate : candidates) {
+    figures.push_back(
+        judgeView(pictures.look(candidate.camera), width, kLookHeight, candidate.camera, mesh, looks));
+    best.variety = std::max(best.variety, figures.back().variety);
+    best.seen = std::max(best.seen, figures.back().seen);
+    best.lamps = std::max(best.lamps, figures.back().lamps);
+  }
+  std::size_t chosen = 0;
+  for (std::size_t i = 1; i < candidates.size(); ++i) {
+    if (score(figures[i], best) + candidates[i].prior >
+        score(figures[chosen], best) + candidates[chosen].prior)
+      chosen = i;
+  }
+  return candidates[chosen].camera;
+}
+
+}  // namespace unshot

@@ -1,0 +1,58 @@
+// "A good picture of any scene without touching a control": candidates outside and inside the scene, each
+// judged by what a small picture of the scene's own polygons from there shows.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "gl/context.h"
+#include "render/camera.h"
+#include "session/snapshot.h"
+
+namespace unshot {
+
+struct AutomaticCameraOptions {
+  double aspect = 4.0 / 3.0;
+  std::optional<double> fov_deg;  ///< else 40 from outside, 65 inside
+  glm::dvec3 up{0, 1, 0};
+};
+
+/// The best of the candidates. On the thread where `context` is current; draws each of the scene's polygons
+/// some dozens of times.
+Camera automaticCamera(gl::Context& context, const Snapshot& snapshot, const AutomaticCameraOptions& options);
+
+// Its parts, for tests.
+
+struct CameraCandidate {
+  Camera camera;
+  double prior = 0;  ///< added to the score: what cannot be seen in the picture
+};
+
+std::vector<CameraCandidate> cameraCandidates(const Bounds& bounds, const AutomaticCameraOptions& options);
+
+/// What the judge knows of a side.
+struct SideLook {
+  double luminance = 0;  ///< mean B over its elements
+  double area = 0;
+  bool emits = false;
+};
+std::vector<SideLook> sideLooks(const Snapshot& snapshot);
+
+/// What a view shows; the parts are in 0..1.
+struct ViewFigures {
+  double covered = 0;   ///< pixels with something in them
+  double lit = 0;       ///< pixels with something that is not dark for this scene
+  double variety = 0;   ///< effective number of sides in view, on a log scale
+  double seen = 0;      ///< area of the sides in view, of all
+  double contrast = 0;  ///< spread of the light
+  double lamps = 0;     ///< lamps in view
+  double blocked = 0;   ///< pixels with something right before the eye
+};
+
+/// `ids`: one per pixel, side + 1 or 0, lowest row first.
+ViewFigures judgeView(std::span<const std::uint32_t> ids, int width, int height, const Camera& camera,
+                      const Mesh& mesh, std::span<const SideLook> looks);
+
+}  // namespace unshot

@@ -1,0 +1,122 @@
+#include "render/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <limits>
+
+namespace unshot {
+namespace {
+
+constexpr double kNearestDepth = 1e-4;  // of the farthest: what 24 bits of depth can still sort
+
+glm::dvec3 anyNormalTo(const glm::dvec3& v) {
+  const glm::dvec3 axis = std::abs(v.x) < std::abs(v.z) ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
+  return glm::normalize(glm::cross(v, axis));
+}
+
+double tanHalf(double fov_deg) { return std::tan(0.5 * fov_deg * glm::pi<double>() / 180.0); }
+
+}  // namespace
+
+double Bounds::diagonal() const { return glm::length(max - min); }
+
+glm::dvec3 Bounds::corner(int k) const {
+  return {k & 1 ? max.x : min.x, k & 2 ? max.y : min.y, k & 4 ? max.z : min.z};
+}
+
+ViewBasis viewBasis(const Camera& camera) {
+  const glm::dvec3 sight = camera.at - camera.eye;
+  const double length = glm::length(sight);
+  ViewBasis basis;
+  basis.forward = length > 0 ? sight / length : glm::dvec3(0, 0, -1);
+  const double up_length = glm::length(camera.up);
+  const glm::dvec3 side = up_length > 0 ? glm::cross(basis.forward, camera.up / up_length) : glm::dvec3(0.0);
+  const double side_length = glm::length(side);
+  basis.right = side_length > 1e-6 ? side / side_length : anyNormalTo(basis.forward);
+  basis.up = glm::cross(basis.right, basis.forward);
+  return basis;
+}
+
+glm::mat4 viewProjection(const Camera& camera, double aspect, const Bounds& bounds,
+                         const FrameWindow& window) {
+  const ViewBasis basis = viewBasis(camera);
+  double nearest = std::numeric_limits<double>::max();
+  double farthest = 0;
+  for (int k = 0; k < 8; ++k) {
+    const double depth = glm::dot(bounds.corner(k) - camera.eye, basis.forward);
+    nearest = std::min(nearest, depth);
+    farthest = std::max(farthest, depth);
+  }
+  if (farthest <= 0) farthest = 1;  // all is behind the eye: any planes will do
+  const double far_plane = 1.001 * farthest;
+  const double near_plane = std::max(0.999 * nearest, kNearestDepth * farthest);
+
+  glm::dmat4 view(1.0);
+  for (int i = 0; i < 3; ++i) {
+    view[i][0] = basis.right[i];
+    view[i][1] = basis.up[i];
+    view[i][2] = -basis.forward[i];
+  }
+  view[3] = glm::dvec4(-glm::dot(basis.right, camera.eye), -glm::dot(basis.up, camera.eye),
+                       glm::dot(basis.forward, camera.eye), 1.0);
+
+  const double tan_y = tanHalf(camera.fov_deg);
+  const double tan_x = tan_y * aspect;
+  glm::dmat4 projection(0.0);
+  projection[0][0] = 1 / tan_x;
+  projection[1][1] = 1 / tan_y;
+  projection[2][2] = (far_plane + near_plane) / (near_plane - far_plane);
+  projection[2][3] = -1;
+  projection[3][2] = 2 * far_plane * near_plane / (near_plane - far_plane);
+
+  // The window of the frame becomes the whole of clip space.
+  const glm::dvec2 size = window.max - window.min;
+  const glm::dvec2 middle = window.max + window.min - 1.0;  // in -1..1
+  glm::dmat4 crop(1.0);
+  crop[0][0] = 1 / size.x;
+  crop[1][1] = 1 / size.y;
+  crop[3][0] = -middle.x / size.x;
+  crop[3][1] = -middle.y / size.y;
+  return glm::mat4(crop * projection * view);
+}
+
+Camera frameBounds(const Bounds& bounds, const glm::dvec3& direction, const glm::dvec3& up, double fov_deg,
+                   double aspect, double fill) {
+  Camera camera;
+  camera.up = up;
+  camera.fov_deg = fov_deg;
+  camera.at = bounds.centre();
+  const glm::dvec3 forward = glm::normalize(direction);
+  camera.eye = camera.at - forward * std::max(bounds.diagonal(), 1e-30);
+  const ViewBasis basis = viewBasis(camera);
+  const double tan_y = fill * tanHalf(fov_deg);
+  const double tan_x = tan_y * aspect;
+  // Alternate between the distance that shows every corner and the sideways shift that centres them.
+  double distance = 0;
+  for (int round = 0; round < 8; ++round) {
+    distance = 0;
+    for (int k = 0; k < 8; ++k) {
+      const glm::dvec3 p = bounds.corner(k) - camera.at;
+      const double depth = glm::dot(p, basis.forward);
+      distance = std::max({distance, std::abs(glm::dot(p, basis.right)) / tan_x - depth,
+                           std::abs(glm::dot(p, basis.up)) / tan_y - depth});
+    }
+    glm::dvec2 lowest(std::numeric_limits<double>::max());
+    glm::dvec2 highest(-std::numeric_limits<double>::max());
+    for (int k = 0; k < 8; ++k) {
+      const glm::dvec3 p = bounds.corner(k) - camera.at;
+      const double depth = std::max(distance + glm::dot(p, basis.forward), 1e-9 * distance + 1e-300);
+      const glm::dvec2 screen(glm::dot(p, basis.right) / depth, glm::dot(p, basis.up) / depth);
+      lowest = glm::min(lowest, screen);
+      highest = glm::max(highest, screen);
+    }
+    const glm::dvec2 middle = 0.5 * (lowest + highest);
+    if (round < 7) camera.at += 0.7 * distance * (middle.x * basis.right + middle.y * basis.up);
+  }
+  camera.eye = camera.at - forward * std::max(distance, 1e-3 * bounds.diagonal());
+  return camera;
+}
+
+}  // namespace unshot

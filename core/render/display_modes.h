@@ -1,0 +1,27 @@
+// What a picture shows. A mode is a row; one that shows a new quantity adds its case to shaders/display.frag.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "base/choice.h"
+
+namespace unshot {
+
+/// What is drawn; the numbers are those of shaders/display.frag.
+enum class Quantity { kRadiosity = 0, kIrradiance = 1, kUnshot = 2, kEmission = 3, kReflectance = 4 };
+
+struct DisplayMode {
+  ChoiceInfo info;
+  Quantity quantity = Quantity::kRadiosity;
+  bool per_element = false;  ///< the element's own value all over it, instead of interpolated
+  bool edges = false;        ///< element edges drawn over it
+  bool tone_mapped = true;   ///< exposed automatically and tone-mapped; else 1 is white
+};
+
+std::span<const DisplayMode> displayModes();
+
+/// Throws a usage Error for an unknown key.
+const DisplayMode& displayMode(std::string_view key);
+
+}  // namespace unshot

@@ -1,0 +1,14 @@
+// The edges between elements, for drawing the mesh.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace unshot {
+
+/// Pairs of vertex indices: every edge of the display triangles but those inside an element.
+std::vector<std::uint32_t> elementEdges(const Mesh& mesh);
+
+}  // namespace unshot

@@ -1,0 +1,47 @@
+#include "render/exposure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/colour.h"
+
+namespace unshot {
+namespace {
+
+constexpr double kBright = 0.97;        // of the pixels are darker than what is shown near white
+constexpr double kWhite = 0.9;          // what those are shown as
+constexpr double kMiddleGrey = 0.2;     // what the logarithmic mean would be shown as
+constexpr double kDarkest = 1e-3;       // of the bright ones: darker ones count as this
+constexpr double kLargestScale = 1e36;  // stays a float, and so does its reciprocal
+
+std::vector<double> luminances(std::span<const glm::vec4> pixels, float wanted) {
+  std::vector<double> found;
+  for (const glm::vec4& p : pixels) {
+    if (p.w != wanted) continue;
+    const double y = luminance(glm::dvec3(p));
+    if (std::isfinite(y) && y > 0) found.push_back(y);
+  }
+  return found;
+}
+
+}  // namespace
+
+double automaticExposure(std::span<const glm::vec4> pixels) {
+  std::vector<double> values = luminances(pixels, kSurfacePixel);
+  if (values.empty()) values = luminances(pixels, kEmitterPixel);
+  if (values.empty()) return 1;
+  const auto bright_at =
+      values.begin() + static_cast<std::ptrdiff_t>(kBright * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), bright_at, values.end());
+  const double bright = *bright_at;
+  double log_sum = 0;
+  for (double y : values) log_sum += std::log(std::max(y, kDarkest * bright));
+  const double log_mean = std::exp(log_sum / static_cast<double>(values.size()));
+  const double scale_bright = kWhite / bright;
+  const double scale_middle = kMiddleGrey / log_mean;
+  const double scale = std::max(scale_bright, std::sqrt(scale_bright) * std::sqrt(scale_middle));
+  return std::clamp(scale, 1 / kLargestScale, kLargestScale);
+}
+
+}  // namespace unshot

@@ -1,0 +1,278 @@
+#include "render/scene_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "base/error.h"
+#include "render/element_edges.h"
+#include "render/exposure.h"
+
+namespace unshot {
+namespace {
+
+// Linear values of the display: a neutral dark grey, sRGB 26.
+constexpr float kBackground = 0.0103f;
+constexpr int kMeteredPixels = 144 * 108;
+// Far inside the range of float, so that sums, interpolation and scaling stay finite.
+constexpr double kLargestValue = 1e36;
+
+struct GpuVertex {
+  glm::vec3 position, normal;
+  std::uint32_t side;
+};
+
+float finiteValue(double v) {
+  return std::isnan(v) ? 0.0f : static_cast<float>(std::clamp(v, -kLargestValue, kLargestValue));
+}
+
+glm::vec3 finiteValue(const glm::dvec3& v) { return {finiteValue(v.x), finiteValue(v.y), finiteValue(v.z)}; }
+
+// `count` values, whatever the snapshot holds (an empty field counts as 0).
+std::vector<glm::vec3> finiteValues(const std::vector<glm::vec3>& field, std::size_t count) {
+  std::vector<glm::vec3> values(count, glm::vec3(0.0f));
+  for (std::size_t i = 0; i < std::min(count, field.size()); ++i)
+    values[i] = finiteValue(glm::dvec3(field[i]));
+  return values;
+}
+
+template <class T>
+void upload(const gl::Functions& fn, const gl::Buffer& buffer, const std::vector<T>& values, GLenum usage) {
+  // The binding point says nothing about the use; this one disturbs no vertex array.
+  fn.BindBuffer(GL_COPY_WRITE_BUFFER, buffer.id());
+  fn.BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data(),
+                usage);
+  fn.BindBuffer(GL_COPY_WRITE_BUFFER, 0);
+}
+
+template <class T>
+void update(const gl::Functions& fn, const gl::Buffer& buffer, const std::vector<T>& values) {
+  if (values.empty()) return;
+  fn.BindBuffer(GL_COPY_WRITE_BUFFER, buffer.id());
+  fn.BufferSubData(GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(values.size() * sizeof(T)),
+                   values.data());
+  fn.BindBuffer(GL_COPY_WRITE_BUFFER, 0);
+}
+
+void allocate(const gl::Functions& fn, const gl::Buffer& buffer, std::size_t bytes) {
+  fn.BindBuffer(GL_COPY_WRITE_BUFFER, buffer.id());
+  fn.BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, GL_DYNAMIC_DRAW);
+  fn.BindBuffer(GL_COPY_WRITE_BUFFER, 0);
+}
+
+void attribute(const gl::Functions& fn, GLuint location, const gl::Buffer& buffer, std::size_t stride,
+               std::size_t offset) {
+  fn.BindBuffer(GL_ARRAY_BUFFER, buffer.id());
+  fn.EnableVertexAttribArray(location);
+  fn.VertexAttribPointer(location, 3, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
+                         reinterpret_cast<const void*>(offset));
+}
+
+void checkTexels(const gl::Functions& fn, std::size_t texels) {
+  GLint largest = 0;
+  fn.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &largest);
+  if (texels <= static_cast<std::size_t>(largest)) return;
+  throw Error(ErrorKind::kEnvironment,
+              "the mesh has " + std::to_string(texels) +
+                  " triangles or elements; this OpenGL driver draws at most " + std::to_string(largest),
+              {}, "fewer elements (--elements), or another provider (--gl)");
+}
+
+void bindTexture(const gl::Functions& fn, const gl::Program& program, const char* name, int unit,
+                 GLenum target, GLuint texture) {
+  fn.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  fn.BindTexture(target, texture);
+  fn.Uniform1i(program.uniform(name), unit);
+}
+
+}  // namespace
+
+SceneView::SceneView(gl::Context& context)
+    : context_(context),
+      display_program_(context, {"display.vert", "display.frag"}),
+      resolve_program_(context, {"frame.vert", "resolve.frag"}),
+      vertex_array_(context),
+      no_attributes_(context),
+      vertices_(context),
+      irradiance_(context),
+      ambient_(context),
+      unshot_(context),
+      triangles_(context),
+      edges_(context),
+      sides_(context),
+      triangle_elements_(context),
+      element_irradiance_(context),
+      sides_texture_(context),
+      triangle_elements_texture_(context),
+      element_irradiance_texture_(context) {}
+
+void SceneView::setSnapshot(const Snapshot& snapshot) {
+  const gl::Functions& fn = context_.functions();
+  if (snapshot.mesh != mesh_) {
+    uploadMesh(*snapshot.mesh);
+    mesh_ = snapshot.mesh;
+    bounds_ = {mesh_->bounds_min, mesh_->bounds_max};
+  }
+  const std::size_t count = mesh_->vertices.size();
+  update(fn, irradiance_, finiteValues(snapshot.irradiance, count));
+  update(fn, ambient_, finiteValues(snapshot.ambient, count));
+  update(fn, unshot_, finiteValues(snapshot.unshot, count));
+  std::vector<glm::vec4> per_element(std::max<std::size_t>(mesh_->element_count, 1), glm::vec4(0.0f));
+  for (std::size_t i = 0; i < std::min(per_element.size(), snapshot.element_irradiance.size()); ++i) {
+    per_element[i] = glm::vec4(finiteValue(glm::dvec3(snapshot.element_irradiance[i])), 0.0f);
+  }
+  update(fn, element_irradiance_, per_element);
+}
+
+void SceneView::uploadMesh(const Mesh& mesh) {
+  const gl::Functions& fn = context_.functions();
+  checkTexels(
+      fn, std::max({mesh.triangle_element.size(), std::size_t{mesh.element_count}, 2 * mesh.sides.size()}));
+
+  std::vector<GpuVertex> vertices;
+  vertices.reserve(mesh.vertices.size());
+  for (const Vertex& v : mesh.vertices) vertices.push_back({v.position, v.normal, v.side});
+  upload(fn, vertices_, vertices, GL_STATIC_DRAW);
+  for (const gl::Buffer* field : {&irradiance_, &ambient_, &unshot_}) {
+    allocate(fn, *field, mesh.vertices.size() * sizeof(glm::vec3));
+  }
+  upload(fn, triangles_, mesh.triangle_vertices, GL_STATIC_DRAW);
+  triangle_index_count_ = static_cast<GLsizei>(mesh.triangle_vertices.size());
+  edges_uploaded_ = false;
+
+  fn.BindVertexArray(vertex_array_.id());
+  attribute(fn, 0, vertices_, sizeof(GpuVertex), offsetof(GpuVertex, position));
+  attribute(fn, 1, vertices_, sizeof(GpuVertex), offsetof(GpuVertex, normal));
+  fn.EnableVertexAttribArray(2);
+  fn.VertexAttribIPointer(2, 1, GL_UNSIGNED_INT, sizeof(GpuVertex),
+                          reinterpret_cast<const void*>(offsetof(GpuVertex, side)));
+  attribute(fn, 3, irradiance_, sizeof(glm::vec3), 0);
+  attribute(fn, 4, ambient_, sizeof(glm::vec3), 0);
+  attribute(fn, 5, unshot_, sizeof(glm::vec3), 0);
+  fn.BindBuffer(GL_ARRAY_BUFFER, 0);
+  fn.BindVertexArray(0);
+
+  std::vector<glm::vec4> sides(std::max<std::size_t>(2 * mesh.sides.size(), 1), glm::vec4(0.0f));
+  for (std::size_t i = 0; i < mesh.sides.size(); ++i) {
+    sides[2 * i] = glm::vec4(finiteValue(mesh.sides[i].reflectance), 0.0f);
+    sides[2 * i + 1] = glm::vec4(finiteValue(mesh.sides[i].emission), 0.0f);
+  }
+  upload(fn, sides_, sides, GL_STATIC_DRAW);
+  upload(fn, triangle_elements_, mesh.triangle_element, GL_STATIC_DRAW);
+  allocate(fn, element_irradiance_, std::max<std::size_t>(mesh.element_count, 1) * sizeof(glm::vec4));
+  const auto attach = [&](const gl::Texture& texture, GLenum format, const gl::Buffer& buffer) {
+    fn.BindTexture(GL_TEXTURE_BUFFER, texture.id());
+    fn.TexBuffer(GL_TEXTURE_BUFFER, format, buffer.id());
+    fn.BindTexture(GL_TEXTURE_BUFFER, 0);
+  };
+  attach(sides_texture_, GL_RGBA32F, sides_);
+  attach(triangle_elements_texture_, GL_R32UI, triangle_elements_);
+  attach(element_irradiance_texture_, GL_RGBA32F, element_irradiance_);
+}
+
+void SceneView::uploadEdges() {
+  if (edges_uploaded_) return;
+  const std::vector<std::uint32_t> pairs = elementEdges(*mesh_);
+  upload(context_.functions(), edges_, pairs, GL_STATIC_DRAW);
+  edge_index_count_ = static_cast<GLsizei>(pairs.size());
+  edges_uploaded_ = true;
+}
+
+const LinearTarget& SceneView::target(LinearTarget& kept, int width, int height) {
+  if (kept.width() != width || kept.height() != height) {
+    kept = LinearTarget();  // the old one goes first: both at once may not fit
+    kept = LinearTarget(context_, width, height);
+  }
+  return kept;
+}
+
+void SceneView::drawLinear(const Camera& camera, double aspect, const FrameWindow& window,
+                           const ViewOptions& options) {
+  const gl::Functions& fn = context_.functions();
+  const DisplayMode& mode = displayMode(options.display);
+  setPassState(fn, true);
+  const GLfloat nothing[4] = {0, 0, 0, kBackgroundPixel};
+  const GLfloat farthest = 1;
+  fn.ClearBufferfv(GL_COLOR, 0, nothing);
+  fn.ClearBufferfv(GL_DEPTH, 0, &farthest);
+  if (!mesh_ || triangle_index_count_ == 0) return;
+
+  const gl::Program& program = display_program_;
+  program.use();
+  const glm::mat4 matrix = viewProjection(camera, aspect, bounds_, window);
+  const glm::vec3 eye(camera.eye);
+  fn.UniformMatrix4fv(program.uniform("view_projection"), 1, GL_FALSE, glm::value_ptr(matrix));
+  fn.Uniform3fv(program.uniform("eye"), 1, glm::value_ptr(eye));
+  fn.Uniform1f(program.uniform("ambient_weight"), options.ambient ? 1.0f : 0.0f);
+  fn.Uniform1i(program.uniform("quantity"), static_cast<int>(mode.quantity));
+  fn.Uniform1i(program.uniform("per_element"), mode.per_element);
+  fn.Uniform1i(program.uniform("edges"), 0);
+  bindTexture(fn, program, "sides", 0, GL_TEXTURE_BUFFER, sides_texture_.id());
+  bindTexture(fn, program, "triangle_elements", 1, GL_TEXTURE_BUFFER, triangle_elements_texture_.id());
+  bindTexture(fn, program, "element_irradiance", 2, GL_TEXTURE_BUFFER, element_irradiance_texture_.id());
+  fn.BindVertexArray(vertex_array_.id());
+  fn.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, triangles_.id());
+  fn.DrawElements(GL_TRIANGLES, triangle_index_count_, GL_UNSIGNED_INT, nullptr);
+  if (mode.edges) {
+    uploadEdges();
+    fn.Uniform1i(program.uniform("edges"), 1);
+    fn.Enable(GL_CLIP_DISTANCE0);
+    fn.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, edges_.id());
+    fn.DrawElements(GL_LINES, edge_index_count_, GL_UNSIGNED_INT, nullptr);
+    fn.Disable(GL_CLIP_DISTANCE0);
+  }
+  fn.BindVertexArray(0);
+}
+
+double SceneView::exposureFor(const Camera& camera, double aspect, const ViewOptions& options) {
+  if (!displayMode(options.display).tone_mapped) return 1;
+  const StateGuard guard(context_.functions());
+  const double height = std::clamp(std::sqrt(kMeteredPixels / aspect), 1.0, double{kMeteredPixels});
+  const LinearTarget& small = target(
+      small_, std::max(1, static_cast<int>(std::lround(kMeteredPixels / height))), static_cast<int>(height));
+  small.bind();
+  drawLinear(camera, aspect, {}, options);
+  return automaticExposure(small.read());
+}
+
+void SceneView::resolve(const LinearTarget& samples, double automatic_exposure, const ViewOptions& options,
+                        const Viewport& viewport) {
+  const gl::Functions& fn = context_.functions();
+  const DisplayMode& mode = displayMode(options.display);
+  const double scale = automatic_exposure * std::exp2(std::clamp(options.exposure_ev, -200.0, 200.0));
+  const gl::Program& program = resolve_program_;
+  setPassState(fn, false);
+  fn.Viewport(viewport.x, viewport.y, viewport.width, viewport.height);
+  program.use();
+  bindTexture(fn, program, "samples", 0, GL_TEXTURE_2D, samples.texture());
+  fn.Uniform1i(program.uniform("factor"), options.supersampling);
+  fn.Uniform2i(program.uniform("origin"), viewport.x, viewport.y);
+  fn.Uniform1f(program.uniform("exposure"), finiteValue(scale));
+  fn.Uniform1i(program.uniform("tone_mapped"), mode.tone_mapped);
+  fn.Uniform3f(program.uniform("background"), kBackground, kBackground, kBackground);
+  // A line is one sample wide: where it covers part of a pixel it is drawn the stronger.
+  fn.Uniform1f(program.uniform("edge_strength"),
+               std::min(1.0f, 0.35f * static_cast<float>(options.supersampling)));
+  fn.BindVertexArray(no_attributes_.id());
+  fn.DrawArrays(GL_TRIANGLES, 0, 3);
+  fn.BindVertexArray(0);
+}
+
+double SceneView::draw(const Camera& camera, const ViewOptions& options, const Viewport& viewport) {
+  if (viewport.width <= 0 || viewport.height <= 0) return options.automatic_exposure.value_or(1);
+  const gl::Functions& fn = context_.functions();
+  const StateGuard guard(fn);
+  const double aspect = static_cast<double>(viewport.width) / viewport.height;
+  const double exposure =
+      options.automatic_exposure ? *options.automatic_exposure : exposureFor(camera, aspect, options);
+  const LinearTarget& samples =
+      target(samples_, viewport.width * options.supersampling, viewport.height * options.supersampling);
+  samples.bind();
+  drawLinear(camera, aspect, {}, options);
+  fn.BindFramebuffer(GL_FRAMEBUFFER, guard.drawFramebuffer());
+  resolve(samples, exposure, options, viewport);
+  return exposure;
+}
+
+}  // namespace unshot

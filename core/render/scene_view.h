@@ -1,0 +1,80 @@
+// Draws a snapshot, for the window and for pictures alike.
+//
+// Two passes: the display triangles into a linear float target (values in W/m^2, whatever their scale), then
+// exposure, tone curve and sRGB encoding into the framebuffer that was bound. Sides without elements are not
+// drawn: a closed room seen from outside is open like a doll's house.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "gl/objects.h"
+#include "render/camera.h"
+#include "render/display_modes.h"
+#include "render/targets.h"
+#include "session/snapshot.h"
+
+namespace unshot {
+
+/// How a picture is shown; nothing here changes what is solved or uploaded.
+struct ViewOptions {
+  std::string display = "radiosity";  ///< key of a display mode
+  double exposure_ev = 0;             ///< stops relative to the automatic exposure
+  bool ambient = true;                ///< add the ambient term
+  int supersampling = 1;              ///< samples along a pixel's side
+  /// Keeps this automatic exposure (what `draw` returned) instead of finding it again.
+  std::optional<double> automatic_exposure;
+};
+
+/// A rectangle of the bound framebuffer [px], from its lower left.
+struct Viewport {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+/// GPU copies of a mesh and of one state of its solve. All calls on the thread where the context is current.
+/// State that is changed goes back to OpenGL's defaults; the framebuffer and viewport stay.
+class SceneView {
+ public:
+  explicit SceneView(gl::Context& context);
+
+  /// Uploads the state; geometry only when the mesh is another than before. Values that are not finite are
+  /// drawn as 0. Throws Error kEnvironment where the mesh is too large for the driver.
+  void setSnapshot(const Snapshot& snapshot);
+
+  /// Draws into `viewport` of the bound framebuffer, in one rendering, and returns the automatic exposure:
+  /// the factor from linear values to about 1 for white, without exposure_ev.
+  double draw(const Camera& camera, const ViewOptions& options, const Viewport& viewport);
+
+  // The two passes by themselves, for pictures in tiles.
+
+  /// Automatic exposure of the picture that `camera` takes, from a small copy of it; 1 for modes that are not
+  /// tone-mapped.
+  double exposureFor(const Camera& camera, double aspect, const ViewOptions& options);
+  /// Clears the bound linear target and draws a part of the picture, over all of its viewport.
+  void drawLinear(const Camera& camera, double aspect, const FrameWindow& window, const ViewOptions& options);
+  /// Shows `samples` (options.supersampling along a pixel's side) in `viewport` of the bound framebuffer.
+  void resolve(const LinearTarget& samples, double automatic_exposure, const ViewOptions& options,
+               const Viewport& viewport);
+
+ private:
+  void uploadMesh(const Mesh& mesh);
+  void uploadEdges();
+  const LinearTarget& target(LinearTarget& kept, int width, int height);
+
+  gl::Context& context_;
+  std::shared_ptr<const Mesh> mesh_;
+  Bounds bounds_;
+  gl::Program display_program_, resolve_program_;
+  gl::VertexArray vertex_array_, no_attributes_;
+  gl::Buffer vertices_, irradiance_, ambient_, unshot_;
+  gl::Buffer triangles_, edges_;
+  gl::Buffer sides_, triangle_elements_, element_irradiance_;
+  gl::Texture sides_texture_, triangle_elements_texture_, element_irradiance_texture_;
+  LinearTarget samples_, small_;
+  GLsizei triangle_index_count_ = 0;
+  GLsizei edge_index_count_ = 0;
+  bool edges_uploaded_ = false;
+};
+
+}  // namespace unshot

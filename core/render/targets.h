@@ -1,0 +1,51 @@
+// Framebuffers to draw into, and the state that the renderer shares with nobody.
+#pragma once
+
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "gl/objects.h"
+
+namespace unshot {
+
+/// Linear RGB and class (float) with depth: what is drawn before exposure.
+class LinearTarget {
+ public:
+  LinearTarget() = default;
+  LinearTarget(gl::Context& context, int width, int height);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  GLuint texture() const { return colour_.id(); }
+  /// Binds it for drawing, with a viewport of its size.
+  void bind() const;
+  /// The pixels, lowest row first. It becomes bound.
+  std::vector<glm::vec4> read() const;
+
+ private:
+  gl::Texture colour_;
+  gl::Renderbuffer depth_;
+  gl::Framebuffer framebuffer_;
+  int width_ = 0, height_ = 0;
+};
+
+/// What is bound for drawing and its viewport, restored at the end of a scope; drawing state goes back to
+/// OpenGL's defaults.
+class StateGuard {
+ public:
+  explicit StateGuard(const gl::Functions& fn);
+  ~StateGuard();
+  StateGuard(const StateGuard&) = delete;
+  StateGuard& operator=(const StateGuard&) = delete;
+  GLuint drawFramebuffer() const { return static_cast<GLuint>(draw_framebuffer_); }
+
+ private:
+  const gl::Functions& fn_;
+  GLint draw_framebuffer_ = 0, read_framebuffer_ = 0;
+  GLint viewport_[4] = {};
+};
+
+/// Sets all fixed-function state that a pass without blending needs.
+void setPassState(const gl::Functions& fn, bool depth_and_culling);
+
+}  // namespace unshot

@@ -1,0 +1,40 @@
+#version 330 core
+// Linear samples to the display: exposure and tone curve per sample, then the mean over the samples of a pixel, so that the
+// edge of a lamp is as smooth as any other. The second output is the linear mean itself.
+#include "colour.glsl"
+#include "tone.glsl"
+
+uniform sampler2D samples;
+uniform int factor;           // samples along a pixel's side
+uniform ivec2 origin;         // of the viewport in the target
+uniform float exposure;
+uniform bool tone_mapped;
+uniform vec3 background;      // linear values of the display
+uniform float edge_strength;  // 0..1
+
+layout(location = 0) out vec4 displayed;
+layout(location = 1) out vec4 linear;
+
+vec3 display(vec4 s) {
+  if (s.a == 0.0) return background;
+  vec3 exposed = min(s.rgb * exposure, vec3(1e4));
+  vec3 c = tone_mapped ? toneMap(exposed) : min(exposed, 1.0);
+  if (s.a == 3.0) c = mix(c, luminance(c) > 0.25 ? vec3(0.0) : vec3(0.6), edge_strength);
+  return c;
+}
+
+void main() {
+  ivec2 first = factor * (ivec2(gl_FragCoord.xy) - origin);
+  vec3 display_sum = vec3(0.0);
+  vec3 linear_mean = vec3(0.0);
+  float weight = 1.0 / float(factor * factor);
+  for (int y = 0; y < factor; ++y) {
+    for (int x = 0; x < factor; ++x) {
+      vec4 s = texelFetch(samples, first + ivec2(x, y), 0);
+      display_sum += display(s);
+      linear_mean += weight * (s.a == 0.0 ? vec3(0.0) : s.rgb);
+    }
+  }
+  displayed = vec4(srgbFromLinear(weight * display_sum), 1.0);
+  linear = vec4(linear_mean, 1.0);
+}
