@@ -31,8 +31,9 @@ constexpr double kEmitterSplitFraction = 0.125;
 // A region with more than this share of the power that a channel emits counts as an emitter here: there are at most a few
 // hundred such regions, whatever the scene.
 constexpr double kEmitterShare = 1.0 / 256;
-// A region may be split this many times below its patch, and at least once below the cells.
-constexpr int kSplits = 3;
+// The floor: parts are not smaller than about half an element, or than this share of the scene's size where elements are
+// coarse. Small patches of a fine scene are not split at all.
+constexpr double kFloorShare = 1.0 / 32;
 // Pixels along the top face. A converged solution rests on thousands of pictures, each turned by its own angle, so 64 give
 // the same error as 128 on the Cornell box (1.3 % at 10,000 elements) in half the time. Where the scene has so many triangles
 // that they set the cost, pixels are free.
@@ -51,6 +52,7 @@ class Hemicube final : public FormFactorMethod {
  public:
   Hemicube(const FormFactorSetup& setup)
       : mesh_(*setup.mesh), picture_(setup.gl(), mesh_), seed_(setup.seed) {
+    floor_ = std::min(mesh_.element_size / 2, kFloorShare * glm::length(mesh_.bounds_max - mesh_.bounds_min));
     const bool many = mesh_.triangles.size() > kManyTriangles;
     resolution_ = many ? kManyTrianglesResolution : kResolution;
     emitter_resolution_ = kEmitterResolution;
@@ -77,10 +79,7 @@ class Hemicube final : public FormFactorMethod {
     const Side& side = mesh_.sides[side_index];
     begin();
     const Region whole = regionOfPatch(mesh_, side.surface, q - side.first_patch);
-    const Node& node = mesh_.nodes[whole.node];
-    const std::uint32_t cells = std::max(node.u1 - node.u0, node.v1 - node.v0);
-    const int splits = std::max(kSplits, static_cast<int>(std::ceil(std::log2(cells))) + 1);
-    shoot(whole, side, splits, 1 / whole.area);
+    shoot(whole, side, true, 1 / whole.area);
     Column out;
     takeReceived([&](std::uint32_t e, double f) {
       out.receiver.push_back(e);
@@ -99,7 +98,7 @@ class Hemicube final : public FormFactorMethod {
     point.surface = side.surface;
     point.area = mesh_.element_area[v];
     point.sample = mesh_.surfaces[side.surface].chart(shape.centre);
-    shoot(point, side, 0, 1 / point.area);
+    shoot(point, side, false, 1 / point.area);
     std::vector<double> per_patch(mesh_.patch_count, 0.0);
     takeReceived([&](std::uint32_t e, double f) { per_patch[mesh_.element_patch[e]] += f; });
     Row out;
@@ -204,18 +203,18 @@ class Hemicube final : public FormFactorMethod {
   }
 
   // Shoots from the region or, where its view is too near for one point, from its parts. Adds share = area * per_area in all.
-  void shoot(const Region& region, const Side& side, int splits, double per_area) {
+  void shoot(const Region& region, const Side& side, bool may_split, double per_area) {
     const bool emits = emitsMuch(region, side);
     const HemicubeLayout layout{emits ? emitter_resolution_ : resolution_};
     const std::vector<double>& delta = deltas(layout);
     const HemicubePicture::Result seen = picture_.draw(frameOf(region, side), layout);
     ++drawn_;
-    if (splits > 0) {
+    if (may_split && std::sqrt(region.area) > 1.4 * floor_) {
       const double limit = std::sqrt(region.area) / (emits ? kEmitterSplitFraction : kSplitFraction) / seen.far_distance;
       double near = 0;
       for (std::size_t k = 0; k < delta.size(); ++k) near += static_cast<double>(seen.distance[k]) < limit ? delta[k] : 0.0;
       if (near > kNearShare) {
-        for (const Region& part : partsOf(mesh_, region)) shoot(part, side, splits - 1, per_area);
+        for (const Region& part : partsOf(mesh_, region)) shoot(part, side, true, per_area);
         return;
       }
     }
@@ -272,6 +271,7 @@ class Hemicube final : public FormFactorMethod {
   const Mesh& mesh_;
   HemicubePicture picture_;
   std::uint64_t seed_;
+  double floor_ = 0;  // [m]
   std::uint32_t resolution_ = 0, emitter_resolution_ = 0;
   glm::dvec3 emitted_{0.0};  // power of all patches, per channel [W]
   std::vector<SurfaceLookup> lookups_;
