@@ -17,6 +17,7 @@
 
 #include "base/random.h"
 #include "formfactor/hemicube_picture.h"
+#include "formfactor/hemicube_rays.h"
 #include "formfactor/methods.h"
 #include "formfactor/regions.h"
 #include "mesh/grid.h"
@@ -25,12 +26,12 @@ namespace unshot {
 namespace {
 
 // A region is split while more than kNearShare of its view is nearer than its size / fraction.
-constexpr double kNearShare = 0.02;
-constexpr double kSplitFraction = 0.5;
+constexpr double kNearShare = 0.05;
+constexpr double kSplitFraction = 0.75;
 constexpr double kEmitterSplitFraction = 0.125;
 // A region with more than this share of the power that a channel emits counts as an emitter here: there are at most a few
 // hundred such regions, whatever the scene.
-constexpr double kEmitterShare = 1.0 / 256;
+constexpr double kEmitterShare = 1.0 / 64;
 // The floor: parts are not smaller than about half an element, or than this share of the scene's size where elements are
 // coarse. Small patches of a fine scene are not split at all.
 constexpr double kFloorShare = 1.0 / 32;
@@ -51,11 +52,12 @@ struct SurfaceLookup {
 class Hemicube final : public FormFactorMethod {
  public:
   Hemicube(const FormFactorSetup& setup)
-      : mesh_(*setup.mesh), picture_(setup.gl(), mesh_), seed_(setup.seed) {
+      : mesh_(*setup.mesh), seed_(setup.seed) {
+    chooseView(setup);
     floor_ = std::min(mesh_.element_size / 2, kFloorShare * glm::length(mesh_.bounds_max - mesh_.bounds_min));
     const bool many = mesh_.triangles.size() > kManyTriangles;
     resolution_ = many ? kManyTrianglesResolution : kResolution;
-    emitter_resolution_ = kEmitterResolution;
+    emitter_resolution_ = many ? kManyTrianglesResolution : kEmitterResolution;
     if (setup.hemicube_resolution != 0) resolution_ = emitter_resolution_ = setup.hemicube_resolution;
     for (const Surface& s : mesh_.surfaces) {
       SurfaceLookup lookup{s.nu, s.nv, s.first_cell, {kNone, kNone}};
@@ -73,6 +75,7 @@ class Hemicube final : public FormFactorMethod {
 
   ReceiverKind receiverKind() const override { return ReceiverKind::kElements; }
   std::uint64_t drawn() const override { return drawn_; }
+  std::string note() const override { return note_; }
 
   Column column(std::uint32_t q) override {
     const std::uint32_t side_index = mesh_.patch_side[q];
@@ -114,6 +117,23 @@ class Hemicube final : public FormFactorMethod {
   }
 
  private:
+  // OpenGL draws, but where a software rasteriser would have to chew through thousands of triangles a picture: its cost grows
+  // with all of them (36 ms at 210,000), a ray's with their logarithm (1 to 3 ms).
+  void chooseView(const FormFactorSetup& setup) {
+    HemicubeDrawing drawing = setup.hemicube_drawing;
+    if (drawing == HemicubeDrawing::kAuto) {
+      const bool many = mesh_.triangles.size() > kManyTriangles;
+      drawing = many && !setup.gl().info().hardware ? HemicubeDrawing::kRays : HemicubeDrawing::kOpenGl;
+    }
+    if (drawing == HemicubeDrawing::kRays) {
+      view_ = std::make_unique<HemicubeRays>(mesh_);
+      note_ = "hemicubes are traced with rays: " + std::to_string(mesh_.triangles.size()) +
+              " triangles are too many a picture for a software renderer";
+    } else {
+      view_ = std::make_unique<HemicubePicture>(setup.gl(), mesh_);
+    }
+  }
+
   // Cells without area border on the outline; rounding can put a pixel there, which then belongs to the nearest cell that
   // has an element. Cells cut by contacts hold several elements; their pixels ask the pieces.
   void fillCells() {
@@ -207,7 +227,7 @@ class Hemicube final : public FormFactorMethod {
     const bool emits = emitsMuch(region, side);
     const HemicubeLayout layout{emits ? emitter_resolution_ : resolution_};
     const std::vector<double>& delta = deltas(layout);
-    const HemicubePicture::Result seen = picture_.draw(frameOf(region, side), layout);
+    const HemicubeView::Result seen = view_->look(frameOf(region, side), layout);
     ++drawn_;
     if (may_split && std::sqrt(region.area) > 1.4 * floor_) {
       const double limit = std::sqrt(region.area) / (emits ? kEmitterSplitFraction : kSplitFraction) / seen.far_distance;
@@ -221,7 +241,7 @@ class Hemicube final : public FormFactorMethod {
     count(seen, delta, layout, region.area * per_area);
   }
 
-  void count(const HemicubePicture::Result& seen, const std::vector<double>& delta, HemicubeLayout layout, double share) {
+  void count(const HemicubeView::Result& seen, const std::vector<double>& delta, HemicubeLayout layout, double share) {
     for (std::size_t k = 0; k < delta.size(); ++k) {
       std::uint32_t element = elementOf(seen.items[k]);
       if (element == kTied) element = elementBeside(seen, layout, k);
@@ -257,7 +277,7 @@ class Hemicube final : public FormFactorMethod {
 
   // Where surfaces meet, rounding may let the one behind win a pixel, and light would leak through closed walls. Such a pixel
   // takes what one next to it sees; where all are doubtful, its light is lost and shows as defect.
-  std::uint32_t elementBeside(const HemicubePicture::Result& seen, HemicubeLayout layout, std::size_t k) const {
+  std::uint32_t elementBeside(const HemicubeView::Result& seen, HemicubeLayout layout, std::size_t k) const {
     const std::size_t width = layout.width();
     const std::size_t beside[] = {k % width > 0 ? k - 1 : k, (k + 1) % width > 0 ? k + 1 : k, k >= width ? k - width : k,
                                   k + width < seen.items.size() ? k + width : k};
@@ -269,7 +289,8 @@ class Hemicube final : public FormFactorMethod {
   }
 
   const Mesh& mesh_;
-  HemicubePicture picture_;
+  std::unique_ptr<HemicubeView> view_;
+  std::string note_;
   std::uint64_t seed_;
   double floor_ = 0;  // [m]
   std::uint32_t resolution_ = 0, emitter_resolution_ = 0;

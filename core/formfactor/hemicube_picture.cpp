@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
-#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <numeric>
 
@@ -21,9 +20,6 @@ struct ItemVertex {
   glm::vec3 heights;
 };
 
-// Depth is the distance in single precision, so two surfaces that meet are told apart from this share of the scene's size on.
-constexpr double kTieMargin = 2e-6;
-
 // Triangles that are culled and drawn together. A software rasteriser (Mesa's) clips a whole draw the slow way as soon as one
 // of its triangles crosses the frustum, so clusters are small and not merged: half the time of 256 in a scene of 15,000.
 constexpr std::uint32_t kClusterVertices = 3 * 48;
@@ -34,19 +30,6 @@ std::uint32_t spread(std::uint32_t x) {
   x = (x | x << 8) & 0x0300f00fu;
   x = (x | x << 4) & 0x030c30c3u;
   return (x | x << 2) & 0x09249249u;
-}
-
-// Heights of a triangle's corners over its edges: corner k over edge e. An edge inside the surface is far from everything.
-glm::dmat3 outlineHeights(const ChartTriangle& t, double far) {
-  glm::dmat3 out(far);
-  for (int e = 0; e < 3; ++e) {
-    for (int k = 0; k < 3; ++k) out[k][e] = far;
-    if (!t.outline[e]) continue;
-    const glm::dvec2 a = t.uv[e], d = t.uv[(e + 1) % 3] - a, apex = t.uv[(e + 2) % 3] - a;
-    out[e][e] = out[(e + 1) % 3][e] = 0;
-    out[(e + 2) % 3][e] = std::abs(d.x * apex.y - d.y * apex.x) / glm::length(d);
-  }
-  return out;
 }
 
 // Surfaces along a space-filling curve (Morton 1966), so that neighbours in the buffer are neighbours in space.
@@ -133,7 +116,7 @@ HemicubePicture::Target& HemicubePicture::target(HemicubeLayout layout) {
   return targets_.back();
 }
 
-HemicubePicture::Result HemicubePicture::draw(const HemicubeFrame& frame, HemicubeLayout layout) {
+HemicubeView::Result HemicubePicture::look(const HemicubeFrame& frame, HemicubeLayout layout) {
   const gl::Functions& fn = context_.functions();
   fn.BindFramebuffer(GL_FRAMEBUFFER, target(layout).framebuffer.id());
   fn.Enable(GL_DEPTH_TEST);
@@ -154,12 +137,11 @@ HemicubePicture::Result HemicubePicture::draw(const HemicubeFrame& frame, Hemicu
   fn.Uniform1f(program_.uniform("inverse_far"), static_cast<float>(1 / far_));
   fn.Uniform1f(program_.uniform("tie_margin"), static_cast<float>(kTieMargin * far_));
 
-  const glm::dvec3 left = glm::cross(frame.normal, frame.right);
-  const std::array<glm::dvec3, 5> forward{frame.normal, frame.right, left, -frame.right, -left};
+  const HemicubeFaces faces(frame);
   for (std::uint32_t face = 0; face < 5; ++face) {
     fn.Viewport(0, static_cast<GLint>(layout.faceRow(face)), static_cast<GLsizei>(layout.width()),
                 static_cast<GLsizei>(layout.faceHeight(face)));
-    drawFace(frame, forward[face], face == 0 ? left : frame.normal, face == 0);
+    drawFace(frame, faces.forward[face], faces.up[face], face == 0);
   }
   const std::size_t pixels = std::size_t{layout.width()} * layout.height();
   items_.resize(pixels);

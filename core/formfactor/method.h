@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "formfactor/receivers.h"
@@ -43,6 +44,8 @@ class FormFactorMethod {
   virtual Row row(std::uint32_t v) = 0;
   /// Pictures drawn so far (hemicubes), for reports; 0 where the method draws none.
   virtual std::uint64_t drawn() const { return 0; }
+  /// What the method chose by looking at the scene and the machine, with its reason; empty: nothing out of the ordinary.
+  virtual std::string note() const { return {}; }
 };
 
 }  // namespace unshot

@@ -15,12 +15,16 @@ namespace gl {
 class Context;
 }
 
+/// How hemicubes are drawn. kAuto: with OpenGL, but with rays where a scene is large and the renderer is software.
+enum class HemicubeDrawing { kAuto, kOpenGl, kRays };
+
 /// What a method is made with. `gl` gives the context, current on the calling thread; called only by methods that draw.
 struct FormFactorSetup {
   const Mesh* mesh = nullptr;
   std::function<gl::Context&()> gl;
   std::uint64_t seed = 1;
   std::uint32_t hemicube_resolution = 0;  ///< pixels; 0: the method's own choice
+  HemicubeDrawing hemicube_drawing = HemicubeDrawing::kAuto;
 };
 
 struct FormFactorMethodRow {

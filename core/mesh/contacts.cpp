@@ -75,12 +75,22 @@ bool onSegment(const glm::dvec2& p, const ContactSegment& s, double tolerance) {
 
 std::vector<std::vector<ContactSegment>> findContacts(const Mesh& mesh, const std::vector<SurfaceEdge>& edges,
                                                       double distance) {
+  // Each edge once, however many polygons share it; `first` is the first of its uses.
+  std::vector<std::uint32_t> first;
   std::vector<Box> boxes;
-  boxes.reserve(edges.size());
-  for (const SurfaceEdge& e : edges) {
-    const glm::dvec3 &p = mesh.positions[e.a], &q = mesh.positions[e.b];
+  for (std::uint32_t k = 0; k < edges.size(); ++k) {
+    if (k > 0 && edges[k].a == edges[k - 1].a && edges[k].b == edges[k - 1].b) continue;
+    const glm::dvec3 &p = mesh.positions[edges[k].a], &q = mesh.positions[edges[k].b];
+    first.push_back(k);
     boxes.push_back({glm::min(p, q), glm::max(p, q)});
   }
+  // Whether the surface has the edge itself: then it is outline already.
+  const auto owns = [&](std::uint32_t surface, std::uint32_t k) {
+    for (std::uint32_t use = k; use < edges.size() && edges[use].a == edges[k].a && edges[use].b == edges[k].b; ++use) {
+      if (edges[use].surface == surface) return true;
+    }
+    return false;
+  };
   const BoxTree tree(std::move(boxes));
   std::vector<std::vector<ContactSegment>> out(mesh.surfaces.size());
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
@@ -93,10 +103,10 @@ std::vector<std::vector<ContactSegment>> findContacts(const Mesh& mesh, const st
       }
     }
     tree.overlapping(box, [&](std::uint32_t index) {
-      const SurfaceEdge& e = edges[index];
-      if (e.surface == s) return;
+      const SurfaceEdge& e = edges[first[index]];
       const glm::dvec3 p = mesh.positions[e.a] - surface.origin, q = mesh.positions[e.b] - surface.origin;
       if (std::abs(glm::dot(p, surface.normal)) > distance || std::abs(glm::dot(q, surface.normal)) > distance) return;
+      if (owns(s, first[index])) return;
       const ContactSegment segment{{glm::dot(p, surface.axis_u), glm::dot(p, surface.axis_v)},
                                    {glm::dot(q, surface.axis_u), glm::dot(q, surface.axis_v)}};
       const auto outside = [&](int axis) {
@@ -112,7 +122,19 @@ std::vector<std::vector<ContactSegment>> findContacts(const Mesh& mesh, const st
 void cutByContacts(std::vector<ConvexPolygon>& polygons, const std::vector<ContactSegment>& contacts, double tolerance) {
   std::vector<ConvexPolygon> next;
   std::vector<const ContactSegment*> near;
+  glm::dvec2 low(INFINITY), high(-INFINITY);
+  for (const ConvexPolygon& p : polygons) {
+    for (const PieceCorner& c : p) {
+      low = glm::min(low, c.uv - 2 * tolerance);
+      high = glm::max(high, c.uv + 2 * tolerance);
+    }
+  }
+  const auto elsewhere = [&](const ContactSegment& s) {
+    return std::max(s.a.x, s.b.x) < low.x || std::max(s.a.y, s.b.y) < low.y || std::min(s.a.x, s.b.x) > high.x ||
+           std::min(s.a.y, s.b.y) > high.y;
+  };
   for (const ContactSegment& segment : contacts) {
+    if (elsewhere(segment)) continue;
     const double length = glm::distance(segment.a, segment.b);
     const glm::dvec2 d = (segment.b - segment.a) / length;
     const bool passes = std::any_of(polygons.begin(), polygons.end(), [&](const ConvexPolygon& p) {

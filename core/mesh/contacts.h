@@ -14,7 +14,8 @@ struct ContactSegment {
   glm::dvec2 a{0.0}, b{0.0};
 };
 
-/// Contact segments of each surface. `edges`: all edges of the scene's polygons; `distance` [m]: how near to the plane an
+/// Contact segments of each surface. `edges`: all edges of the scene's polygons, equal ones
+/// side by side; `distance` [m]: how near to the plane an
 /// edge lies in it.
 std::vector<std::vector<ContactSegment>> findContacts(const Mesh& mesh, const std::vector<SurfaceEdge>& edges,
                                                       double distance);

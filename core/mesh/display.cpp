@@ -1,7 +1,9 @@
 #include "mesh/display.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <set>
@@ -281,6 +283,7 @@ class DisplayMaker {
       for (const Entry& e : row) sum += e.weight;
       for (Entry& e : row) e.weight /= sum;
     }
+    interpolateInCells(rows);
     interpolateAlongEdges(real, rows);
     for (const auto& row : rows) {
       for (const Entry& e : row) {
@@ -288,6 +291,59 @@ class DisplayMaker {
         mesh_.vertex_from_elements.weight.push_back(e.weight);
       }
       mesh_.vertex_from_elements.start.push_back(static_cast<std::uint32_t>(mesh_.vertex_from_elements.index.size()));
+    }
+  }
+
+  // Ring corners of the cell's pieces at its four corners: (low, low), (high, low), (low, high), (high, high); kNone where the
+  // cell is clipped there.
+  std::array<std::uint32_t, 4> gridCorners(const Surface& surface, std::uint32_t cell) const {
+    const glm::dvec2 step = surface.extent / glm::dvec2(surface.nu, surface.nv);
+    const glm::dvec2 low = step * glm::dvec2(cell % surface.nu, cell / surface.nu);
+    std::array<std::uint32_t, 4> out{kNone, kNone, kNone, kNone};
+    const Range pieces = mesh_.cells[surface.first_cell + cell].pieces;
+    for (std::uint32_t k = ring_start_[pieces.first]; k < ring_start_[pieces.end()]; ++k) {
+      const glm::dvec2 t = (surface.chart(points_[ring_[k].point]) - low) / step;
+      const glm::dvec2 nearest = glm::round(t);
+      if (glm::distance(t * step, nearest * step) > 2 * distance_) continue;
+      out[static_cast<std::size_t>(nearest.x + 2 * nearest.y)] = k;
+    }
+    return out;
+  }
+
+  // What the triangles of the input and the corners of neighbours cut into a whole cell is bilinear between its corners, so
+  // that such cuts do not show.
+  void interpolateInCells(Rows& rows) const {
+    std::vector<char> done(rows.size(), 0);
+    for (const Surface& surface : mesh_.surfaces) {
+      const glm::dvec2 step = surface.extent / glm::dvec2(surface.nu, surface.nv);
+      for (std::uint32_t c = 0; surface.elements.count > 0 && c < surface.nu * surface.nv; ++c) {
+        const Cell& cell = mesh_.cells[surface.first_cell + c];
+        if (cell.element == kNone || cell.element == kMixed) continue;
+        const std::uint32_t first = ring_start_[cell.pieces.first], end = ring_start_[cell.pieces.end()];
+        if (end - first <= 4) continue;
+        const auto corners = gridCorners(surface, c);
+        if (std::count(corners.begin(), corners.end(), kNone) != 0) continue;
+        const glm::dvec2 low = step * glm::dvec2(c % surface.nu, c / surface.nu);
+        for (std::uint32_t k = first; k < end; ++k) {
+          const bool at_corner = std::any_of(corners.begin(), corners.end(), [&](std::uint32_t corner) {
+            return ring_[corner].point == ring_[k].point;
+          });
+          if (at_corner) continue;
+          const glm::dvec2 t = glm::clamp((surface.chart(points_[ring_[k].point]) - low) / step, 0.0, 1.0);
+          for (std::uint32_t back = 0; back < 2; ++back) {
+            const std::uint32_t vertex = vertex_[2 * k + back];
+            if (vertex == kNone || std::exchange(done[vertex], char{1})) continue;
+            std::vector<Entry> row;
+            for (std::uint32_t q = 0; q < 4; ++q) {
+              const double share = (q & 1 ? t.x : 1 - t.x) * (q & 2 ? t.y : 1 - t.y);
+              for (const Entry& e : rows[vertex_[2 * corners[q] + back]]) {
+                row.push_back({e.element, static_cast<float>(share) * e.weight});
+              }
+            }
+            rows[vertex] = std::move(row);
+          }
+        }
+      }
     }
   }
 

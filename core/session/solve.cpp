@@ -106,6 +106,7 @@ void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl) {
     return context;
   };
   std::unique_ptr<FormFactorMethod> method = row.make(setup);
+  if (!method->note().empty()) diagnostics.push_back({Severity::kNote, "form-factor-note", method->note(), {}, {}});
   Receivers receivers = makeReceivers(*mesh, method->receiverKind());
   transport = std::make_unique<Transport>(std::move(method), std::move(receivers), mesh->patch_area, options.kept_bytes);
 }
