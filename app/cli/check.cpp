@@ -36,13 +36,13 @@ void printCheck(const Scene& scene, const Diagnostics& diagnostics, const std::v
                  {"area", figureText(figures.area) + " m^2 (one side)"},
                  {"closed", figures.closed() ? "yes: every edge joins an even number of polygons"
                                              : "not shown: " + countedText(figures.open_edges, "open edge")}};
-  for (const PlanDecision& decision : plan) lines.emplace_back("plan", planText(decision));
+  for (const PlanDecision& decision : plan) lines.emplace_back("left out", planText(decision));
   printLines(std::cout, lines);
   if (diagnostics.empty()) {
     std::cout << "\nNothing is wrong with this scene.\n";
     return;
   }
-  std::cout << "\n" << countedText(diagnostics.size(), "doubt") << ":\n";
+  std::cout << "\n" << countedText(diagnostics.size(), "remark") << ":\n";
   printDiagnostics(std::cout, diagnostics);
 }
 
