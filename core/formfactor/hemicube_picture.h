@@ -14,10 +14,16 @@
 
 namespace unshot {
 
-/// One pixel: what it sees. `surface` is kNone where it sees nothing.
+/// One pixel: what it sees.
 struct Item {
-  std::uint32_t surface_side;  ///< surface << 1 | back; 0xffffffff: nothing
-  std::uint32_t chart;         ///< u | v << 16, in 1/65536 of the chart's extent
+  std::uint32_t code;   ///< kNone: nothing; else tie << 31 | surface << 1 | back
+  std::uint32_t chart;  ///< u | v << 16, in 1/65536 of the chart's extent
+
+  bool nothing() const { return code == kNone; }
+  /// The surface's outline is so near that rounding may have let it win over the surface it ends at.
+  bool tie() const { return code != kNone && (code >> 31) != 0; }
+  std::uint32_t surface() const { return (code & 0x7fffffffu) >> 1; }
+  std::uint32_t back() const { return code & 1; }
 };
 
 /// Where a hemicube stands. `right` and `normal` are orthonormal.

@@ -323,20 +323,28 @@ void gridSurface(Mesh& mesh, std::uint32_t surface, std::uint32_t nu, std::uint3
   SurfaceGrid(mesh, surface, patch_cells, contacts, tolerance).run(nu, nv);
 }
 
-std::uint32_t elementAt(const Mesh& mesh, const Surface& s, const glm::dvec2& uv) {
+std::uint32_t elementAt(const Mesh& mesh, const Surface& s, const glm::dvec2& uv, double margin) {
   const Cell& cell = mesh.cells[cellAt(s, uv)];
   if (cell.element != kMixed) return cell.element;
-  std::uint32_t best = kNone;
-  double least = INFINITY;
+  std::uint32_t best = kNone, other = kNone;
+  double least = INFINITY, least_other = INFINITY;
   for (std::uint32_t k = cell.pieces.first; k < cell.pieces.end(); ++k) {
     const Range corners = mesh.pieces[k].corners;
+    const std::uint32_t element = mesh.pieces[k].element;
     const double outside = distanceOutside({&mesh.piece_corners[corners.first], corners.count}, uv);
-    if (outside >= least) continue;
-    least = outside;
-    best = mesh.pieces[k].element;
-    if (outside == 0) break;
+    if (outside < least) {
+      if (element != best) {
+        other = best;
+        least_other = least;
+      }
+      least = outside;
+      best = element;
+    } else if (element != best && outside < least_other) {
+      other = element;
+      least_other = outside;
+    }
   }
-  return best;
+  return other != kNone && least_other < margin ? kNone : best;
 }
 
 }  // namespace unshot

@@ -28,7 +28,7 @@ inline std::uint32_t cellAt(const Surface& s, const glm::dvec2& uv) {
 }
 
 /// The local element at chart position uv: the one that holds it or, outside the outline, the nearest in its cell. kNone
-/// where the cell has no area.
-std::uint32_t elementAt(const Mesh& mesh, const Surface& s, const glm::dvec2& uv);
+/// where the cell has no area, or where several elements lie within `margin` [m] of uv and none is sure to hold it.
+std::uint32_t elementAt(const Mesh& mesh, const Surface& s, const glm::dvec2& uv, double margin = 0);
 
 }  // namespace unshot
