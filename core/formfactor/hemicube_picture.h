@@ -1,5 +1,5 @@
-// Draws the item buffer of a hemicube with OpenGL: the scene's own polygons, not the mesh, so that refining the mesh makes no
-// picture dearer.
+// Draws the item buffer of a hemicube with OpenGL: the scene's own polygons, not the mesh, so that refining
+// the mesh makes no picture dearer.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,8 @@ class HemicubePicture {
  public:
   HemicubePicture(gl::Context& context, const Mesh& mesh);
 
-  /// Draws and reads back. The spans hold one value per pixel of the layout and stay valid until the next call.
+  /// Draws and reads back. The spans hold one value per pixel of the layout and stay valid until the next
+  /// call.
   struct Result {
     std::span<const Item> items;
     std::span<const float> distance;  ///< in `far_distance`
