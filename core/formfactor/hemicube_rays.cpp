@@ -34,7 +34,8 @@ HemicubeRays::HemicubeRays(const Mesh& mesh)
       for (int k = 0; k < 3; ++k) {
         triangles_[t].chart[k] = glm::vec2(mesh.triangles[t].uv[k] / surface.extent);
         // An inner edge is far from every point of the triangle, not only from its apex.
-        triangles_[t].apex_height[k] = mesh.triangles[t].outline[k] ? static_cast<float>(heights[(k + 2) % 3][k]) : INFINITY;
+        triangles_[t].apex_height[k] =
+            mesh.triangles[t].outline[k] ? static_cast<float>(heights[(k + 2) % 3][k]) : INFINITY;
       }
     }
   }
@@ -44,14 +45,17 @@ Item HemicubeRays::itemOf(const FirstHits::Hit& hit, const glm::vec3& direction)
   if (hit.triangle == kNone) return {kNone, 0};
   const Triangle& t = triangles_[hit.triangle];
   const float weight[3] = {1 - hit.weight1 - hit.weight2, hit.weight1, hit.weight2};
-  const glm::vec2 chart = glm::clamp(weight[0] * t.chart[0] + weight[1] * t.chart[1] + weight[2] * t.chart[2], 0.0f, 1.0f);
+  const glm::vec2 chart =
+      glm::clamp(weight[0] * t.chart[0] + weight[1] * t.chart[1] + weight[2] * t.chart[2], 0.0f, 1.0f);
   bool tie = false;
   for (int e = 0; e < 3; ++e) {
-    tie = tie || (t.apex_height[e] != INFINITY && weight[(e + 2) % 3] * t.apex_height[e] < static_cast<float>(kTieMargin * far_));
+    tie = tie || (t.apex_height[e] != INFINITY &&
+                  weight[(e + 2) % 3] * t.apex_height[e] < static_cast<float>(kTieMargin * far_));
   }
   const bool back = glm::dot(glm::dvec3(direction), mesh_.surfaces[t.surface].normal) > 0;
   const auto quantised = [](float x) { return static_cast<std::uint32_t>(x * 65535.99f); };
-  return {(tie ? 0x80000000u : 0u) | t.surface << 1 | (back ? 1u : 0u), quantised(chart.x) | quantised(chart.y) << 16};
+  return {(tie ? 0x80000000u : 0u) | t.surface << 1 | (back ? 1u : 0u),
+          quantised(chart.x) | quantised(chart.y) << 16};
 }
 
 HemicubeView::Result HemicubeRays::look(const HemicubeFrame& frame, HemicubeLayout layout) {
@@ -62,7 +66,8 @@ HemicubeView::Result HemicubeRays::look(const HemicubeFrame& frame, HemicubeLayo
   distance_.resize(pixels);
   // Pixels are independent, so the rows are shared out: the result is the same with any number of threads.
   const std::uint32_t most = std::max(1u, std::thread::hardware_concurrency());
-  const auto threads = static_cast<std::uint32_t>(std::clamp<std::size_t>(pixels / kPixelsWorthAThread, 1, most));
+  const auto threads =
+      static_cast<std::uint32_t>(std::clamp<std::size_t>(pixels / kPixelsWorthAThread, 1, most));
   std::vector<std::jthread> helpers;
   for (std::uint32_t k = 1; k < threads; ++k) {
     helpers.emplace_back([&, k] {
@@ -74,7 +79,8 @@ HemicubeView::Result HemicubeRays::look(const HemicubeFrame& frame, HemicubeLayo
   return {items_, distance_, far_};
 }
 
-void HemicubeRays::traceRows(const HemicubeFrame& frame, HemicubeLayout layout, std::uint32_t first_row, std::uint32_t end_row) {
+void HemicubeRays::traceRows(const HemicubeFrame& frame, HemicubeLayout layout, std::uint32_t first_row,
+                             std::uint32_t end_row) {
   const std::uint32_t n = layout.resolution;
   const HemicubeFaces faces(frame);
   for (std::uint32_t row = first_row; row < end_row; ++row) {

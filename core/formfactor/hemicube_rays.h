@@ -18,10 +18,11 @@ class HemicubeRays final : public HemicubeView {
   // What is known of a triangle: its chart position from barycentric weights, and how far its outline is.
   struct Triangle {
     std::uint32_t surface;
-    glm::vec2 chart[3];      // 0..1
-    float apex_height[3];    // of the corner opposite to edge e over it [m]
+    glm::vec2 chart[3];    // 0..1
+    float apex_height[3];  // of the corner opposite to edge e over it [m]
   };
-  void traceRows(const HemicubeFrame& frame, HemicubeLayout layout, std::uint32_t first_row, std::uint32_t end_row);
+  void traceRows(const HemicubeFrame& frame, HemicubeLayout layout, std::uint32_t first_row,
+                 std::uint32_t end_row);
   Item itemOf(const FirstHits::Hit& hit, const glm::vec3& direction) const;
 
   const Mesh& mesh_;

@@ -1,5 +1,6 @@
-// What a hemicube sees: an item buffer with the surface, side, chart position and distance of each pixel, of the scene's own
-// polygons and not of the mesh, so that refining the mesh makes no view dearer. Drawn with OpenGL or traced with rays.
+// What a hemicube sees: an item buffer with the surface, side, chart position and distance of each pixel, of
+// the scene's own polygons and not of the mesh, so that refining the mesh makes no view dearer. Drawn with
+// OpenGL or traced with rays.
 #pragma once
 
 #include <cstdint>
@@ -44,12 +45,12 @@ class HemicubeView {
   virtual Result look(const HemicubeFrame& frame, HemicubeLayout layout) = 0;
 };
 
-/// Depth is the distance in single precision, so two surfaces that meet are told apart from this share of the far distance on:
-/// nearer to its outline a surface is a tie.
+/// Depth is the distance in single precision, so two surfaces that meet are told apart from this share of the
+/// far distance on: nearer to its outline a surface is a tie.
 inline constexpr double kTieMargin = 2e-6;
 
-/// Heights of a triangle's corners over its edges [m]: out[corner][edge], edge e from corner e to e + 1. An edge inside the
-/// surface is as far away as `far`.
+/// Heights of a triangle's corners over its edges [m]: out[corner][edge], edge e from corner e to e + 1. An
+/// edge inside the surface is as far away as `far`.
 glm::dmat3 outlineHeights(const ChartTriangle& triangle, double far);
 
 /// The faces of a hemicube: forward directions and what is up in their pictures.

@@ -12,12 +12,15 @@ namespace {
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
-// The part of the line a + t d (|d| = 1) inside a convex polygon: t in [first, second]; empty where first >= second.
-std::pair<double, double> insideRange(const ConvexPolygon& polygon, const glm::dvec2& a, const glm::dvec2& d) {
+// The part of the line a + t d (|d| = 1) inside a convex polygon: t in [first, second]; empty where first >=
+// second.
+std::pair<double, double> insideRange(const ConvexPolygon& polygon, const glm::dvec2& a,
+                                      const glm::dvec2& d) {
   double first = -INFINITY, second = INFINITY;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const glm::dvec2 p = polygon[k].uv, edge = polygon[(k + 1) % polygon.size()].uv - p;
-    const double distance = cross(edge, a - p), speed = cross(edge, d);  // inside where distance + t speed >= 0
+    const double distance = cross(edge, a - p),
+                 speed = cross(edge, d);  // inside where distance + t speed >= 0
     if (speed == 0) {
       if (distance < 0) return {0, 0};
       continue;
@@ -55,7 +58,8 @@ void halve(const ConvexPolygon& in, const glm::dvec2& a, const glm::dvec2& d, do
       if (h0 >= 0) half.push_back({in[k].uv, h0 == 0 && h1 < 0 ? false : in[k].outline});
       if ((h0 > 0 && h1 < 0) || (h0 < 0 && h1 > 0)) {
         // The same point from either half and from the neighbour across the edge.
-        const bool turned = in[next].uv.x < in[k].uv.x || (in[next].uv.x == in[k].uv.x && in[next].uv.y < in[k].uv.y);
+        const bool turned =
+            in[next].uv.x < in[k].uv.x || (in[next].uv.x == in[k].uv.x && in[next].uv.y < in[k].uv.y);
         const glm::dvec2 p = turned ? in[next].uv : in[k].uv, q = turned ? in[k].uv : in[next].uv;
         const double hp = turned ? height[next] : height[k], hq = turned ? height[k] : height[next];
         half.push_back({p + hp / (hp - hq) * (q - p), h0 < 0 && in[k].outline});
@@ -68,7 +72,8 @@ void halve(const ConvexPolygon& in, const glm::dvec2& a, const glm::dvec2& d, do
 bool onSegment(const glm::dvec2& p, const ContactSegment& s, double tolerance) {
   const glm::dvec2 d = s.b - s.a;
   const double length = glm::length(d), along = glm::dot(p - s.a, d) / length;
-  return std::abs(cross(d, p - s.a)) / length <= tolerance && along >= -tolerance && along <= length + tolerance;
+  return std::abs(cross(d, p - s.a)) / length <= tolerance && along >= -tolerance &&
+         along <= length + tolerance;
 }
 
 }  // namespace
@@ -86,7 +91,8 @@ std::vector<std::vector<ContactSegment>> findContacts(const Mesh& mesh, const st
   }
   // Whether the surface has the edge itself: then it is outline already.
   const auto owns = [&](std::uint32_t surface, std::uint32_t k) {
-    for (std::uint32_t use = k; use < edges.size() && edges[use].a == edges[k].a && edges[use].b == edges[k].b; ++use) {
+    for (std::uint32_t use = k;
+         use < edges.size() && edges[use].a == edges[k].a && edges[use].b == edges[k].b; ++use) {
       if (edges[use].surface == surface) return true;
     }
     return false;
@@ -105,7 +111,9 @@ std::vector<std::vector<ContactSegment>> findContacts(const Mesh& mesh, const st
     tree.overlapping(box, [&](std::uint32_t index) {
       const SurfaceEdge& e = edges[first[index]];
       const glm::dvec3 p = mesh.positions[e.a] - surface.origin, q = mesh.positions[e.b] - surface.origin;
-      if (std::abs(glm::dot(p, surface.normal)) > distance || std::abs(glm::dot(q, surface.normal)) > distance) return;
+      if (std::abs(glm::dot(p, surface.normal)) > distance ||
+          std::abs(glm::dot(q, surface.normal)) > distance)
+        return;
       if (owns(s, first[index])) return;
       const ContactSegment segment{{glm::dot(p, surface.axis_u), glm::dot(p, surface.axis_v)},
                                    {glm::dot(q, surface.axis_u), glm::dot(q, surface.axis_v)}};
@@ -119,7 +127,8 @@ std::vector<std::vector<ContactSegment>> findContacts(const Mesh& mesh, const st
   return out;
 }
 
-void cutByContacts(std::vector<ConvexPolygon>& polygons, const std::vector<ContactSegment>& contacts, double tolerance) {
+void cutByContacts(std::vector<ConvexPolygon>& polygons, const std::vector<ContactSegment>& contacts,
+                   double tolerance) {
   std::vector<ConvexPolygon> next;
   std::vector<const ContactSegment*> near;
   glm::dvec2 low(INFINITY), high(-INFINITY);
@@ -130,8 +139,8 @@ void cutByContacts(std::vector<ConvexPolygon>& polygons, const std::vector<Conta
     }
   }
   const auto elsewhere = [&](const ContactSegment& s) {
-    return std::max(s.a.x, s.b.x) < low.x || std::max(s.a.y, s.b.y) < low.y || std::min(s.a.x, s.b.x) > high.x ||
-           std::min(s.a.y, s.b.y) > high.y;
+    return std::max(s.a.x, s.b.x) < low.x || std::max(s.a.y, s.b.y) < low.y ||
+           std::min(s.a.x, s.b.x) > high.x || std::min(s.a.y, s.b.y) > high.y;
   };
   for (const ContactSegment& segment : contacts) {
     if (elsewhere(segment)) continue;

@@ -1,5 +1,6 @@
-// Contacts: where edges of other surfaces lie in a surface's plane, inside its outline (a block on a floor, a wall on a
-// carpet). Light differs on the two sides of such a line, so cells are cut along it and nothing is interpolated across.
+// Contacts: where edges of other surfaces lie in a surface's plane, inside its outline (a block on a floor, a
+// wall on a carpet). Light differs on the two sides of such a line, so cells are cut along it and nothing is
+// interpolated across.
 #pragma once
 
 #include <vector>
@@ -20,9 +21,9 @@ struct ContactSegment {
 std::vector<std::vector<ContactSegment>> findContacts(const Mesh& mesh, const std::vector<SurfaceEdge>& edges,
                                                       double distance);
 
-/// Cuts the convex polygons of one cell by the lines of those segments that pass through it, and marks every edge that lies on
-/// a segment as outline. `tolerance` [m].
-void cutByContacts(std::vector<std::vector<PieceCorner>>& polygons, const std::vector<ContactSegment>& contacts,
-                   double tolerance);
+/// Cuts the convex polygons of one cell by the lines of those segments that pass through it, and marks every
+/// edge that lies on a segment as outline. `tolerance` [m].
+void cutByContacts(std::vector<std::vector<PieceCorner>>& polygons,
+                   const std::vector<ContactSegment>& contacts, double tolerance);
 
 }  // namespace unshot

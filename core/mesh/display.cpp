@@ -66,12 +66,13 @@ class DisplayMaker {
     }
   }
 
-  // A corner of a piece in its ring: the point and whether the edge to the next one is outline. A point that lies on an edge
-  // of the piece, because a neighbour has a corner there, is put in between the edge's ends.
+  // A corner of a piece in its ring: the point and whether the edge to the next one is outline. A point that
+  // lies on an edge of the piece, because a neighbour has a corner there, is put in between the edge's ends.
   struct RingCorner {
     std::uint32_t point;
     bool outline;
-    std::uint32_t from = kNone, to = kNone;  // ring corners of the edge it was put in; kNone for a corner of the piece
+    std::uint32_t from = kNone,
+                  to = kNone;  // ring corners of the edge it was put in; kNone for a corner of the piece
     float along = 0;
     bool putIn() const { return from != kNone; }
   };
@@ -153,14 +154,15 @@ class DisplayMaker {
   }
 
   struct RingEdge {
-    std::uint32_t low, high;  // points
+    std::uint32_t low, high;        // points
     std::uint32_t at_low, at_high;  // ring corners there
     std::uint32_t surface;
     bool outline;
   };
 
-  // Ring corners are one vertex where pieces share an edge across which light is continuous: within a surface an edge that is
-  // not outline, between surfaces an edge of a smooth pair. Side by side: group 2 corner + back.
+  // Ring corners are one vertex where pieces share an edge across which light is continuous: within a surface
+  // an edge that is not outline, between surfaces an edge of a smooth pair. Side by side: group 2 corner +
+  // back.
   void joinCorners() {
     std::vector<RingEdge> edges;
     edges.reserve(ring_.size());
@@ -169,17 +171,21 @@ class DisplayMaker {
         const std::uint32_t next = k + 1 < ring_start_[p + 1] ? k + 1 : ring_start_[p];
         const bool forward = ring_[k].point < ring_[next].point;
         const std::uint32_t low = forward ? k : next, high = forward ? next : k;
-        edges.push_back({ring_[low].point, ring_[high].point, low, high, piece_surface_[p], ring_[k].outline});
+        edges.push_back(
+            {ring_[low].point, ring_[high].point, low, high, piece_surface_[p], ring_[k].outline});
       }
     }
-    std::sort(edges.begin(), edges.end(),
-              [](const RingEdge& a, const RingEdge& b) { return std::tie(a.low, a.high) < std::tie(b.low, b.high); });
+    std::sort(edges.begin(), edges.end(), [](const RingEdge& a, const RingEdge& b) {
+      return std::tie(a.low, a.high) < std::tie(b.low, b.high);
+    });
     std::set<std::tuple<std::uint32_t, std::uint32_t, bool>> smooth;
-    for (const SmoothPair& pair : pairs_) smooth.emplace(std::min(pair.a, pair.b), std::max(pair.a, pair.b), pair.flipped);
+    for (const SmoothPair& pair : pairs_)
+      smooth.emplace(std::min(pair.a, pair.b), std::max(pair.a, pair.b), pair.flipped);
     group_.resize(2 * ring_.size());
     std::iota(group_.begin(), group_.end(), 0u);
     for (std::size_t i = 0; i < edges.size(); ++i) {
-      for (std::size_t j = i + 1; j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high; ++j) {
+      for (std::size_t j = i + 1;
+           j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high; ++j) {
         const RingEdge &a = edges[i], &b = edges[j];
         if (a.surface == b.surface) {
           if (!a.outline && !b.outline) joinEdge(a, b, 0);
@@ -253,8 +259,8 @@ class DisplayMaker {
   };
   using Rows = std::vector<std::vector<Entry>>;
 
-  // Elements around a vertex count by the inverse of their centre's distance. A vertex that is only put in takes the values
-  // of its edge's ends, so that putting it in changes nothing that is seen.
+  // Elements around a vertex count by the inverse of their centre's distance. A vertex that is only put in
+  // takes the values of its edge's ends, so that putting it in changes nothing that is seen.
   void makeWeights() {
     Rows rows(mesh_.vertices.size());
     std::vector<char> real(mesh_.vertices.size(), 0);
@@ -273,7 +279,8 @@ class DisplayMaker {
           if (side == kNone || !real[vertex]) continue;
           const std::uint32_t element = mesh_.sides[side].first_element + mesh_.pieces[p].element;
           auto& row = rows[vertex];
-          const bool known = std::any_of(row.begin(), row.end(), [&](const Entry& e) { return e.element == element; });
+          const bool known =
+              std::any_of(row.begin(), row.end(), [&](const Entry& e) { return e.element == element; });
           if (!known) row.push_back({element, static_cast<float>(1 / distance)});
         }
       }
@@ -290,12 +297,13 @@ class DisplayMaker {
         mesh_.vertex_from_elements.index.push_back(e.element);
         mesh_.vertex_from_elements.weight.push_back(e.weight);
       }
-      mesh_.vertex_from_elements.start.push_back(static_cast<std::uint32_t>(mesh_.vertex_from_elements.index.size()));
+      mesh_.vertex_from_elements.start.push_back(
+          static_cast<std::uint32_t>(mesh_.vertex_from_elements.index.size()));
     }
   }
 
-  // Ring corners of the cell's pieces at its four corners: (low, low), (high, low), (low, high), (high, high); kNone where the
-  // cell is clipped there.
+  // Ring corners of the cell's pieces at its four corners: (low, low), (high, low), (low, high), (high,
+  // high); kNone where the cell is clipped there.
   std::array<std::uint32_t, 4> gridCorners(const Surface& surface, std::uint32_t cell) const {
     const glm::dvec2 step = surface.extent / glm::dvec2(surface.nu, surface.nv);
     const glm::dvec2 low = step * glm::dvec2(cell % surface.nu, cell / surface.nu);
@@ -310,8 +318,8 @@ class DisplayMaker {
     return out;
   }
 
-  // What the triangles of the input and the corners of neighbours cut into a whole cell is bilinear between its corners, so
-  // that such cuts do not show.
+  // What the triangles of the input and the corners of neighbours cut into a whole cell is bilinear between
+  // its corners, so that such cuts do not show.
   void interpolateInCells(Rows& rows) const {
     std::vector<char> done(rows.size(), 0);
     for (const Surface& surface : mesh_.surfaces) {
@@ -370,9 +378,9 @@ class DisplayMaker {
   std::vector<glm::dvec3> points_;
   std::vector<std::uint32_t> corner_point_;  // per piece corner
   std::vector<RingCorner> ring_;
-  std::vector<std::uint32_t> ring_start_;    // per piece
-  std::vector<std::uint32_t> group_;         // union-find over 2 ring corner + back
-  std::vector<std::uint32_t> vertex_;        // display vertex of 2 ring corner + back
+  std::vector<std::uint32_t> ring_start_;  // per piece
+  std::vector<std::uint32_t> group_;       // union-find over 2 ring corner + back
+  std::vector<std::uint32_t> vertex_;      // display vertex of 2 ring corner + back
 };
 
 }  // namespace

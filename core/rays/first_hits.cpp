@@ -22,12 +22,13 @@ struct FirstHits::Impl {
 FirstHits::FirstHits(std::span<const glm::vec3> positions, std::span<const std::uint32_t> corners)
     : impl_(std::make_unique<Impl>()) {
   impl_->device = rtcNewDevice("threads=1");
-  if (!impl_->device) throw Error(ErrorKind::kEnvironment, "Embree gives no device", {}, "reinstalling libembree3");
+  if (!impl_->device)
+    throw Error(ErrorKind::kEnvironment, "Embree gives no device", {}, "reinstalling libembree3");
   impl_->scene = rtcNewScene(impl_->device);
   rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
   RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                   sizeof(glm::vec3), positions.size()));
+  auto* vertices = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), positions.size()));
   auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
       geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), corners.size() / 3));
   if (!vertices || !indices) {
@@ -75,7 +76,8 @@ void FirstHits::trace(const glm::vec3& origin, float near_distance, std::span<co
     }
     rtcIntersect16(valid, impl_->scene, &context, &rays);
     for (std::size_t k = 0; k < count; ++k) {
-      hits[first + k] = {rays.ray.tfar[k], rays.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID ? 0xffffffffu : rays.hit.primID[k],
+      hits[first + k] = {rays.ray.tfar[k],
+                         rays.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID ? 0xffffffffu : rays.hit.primID[k],
                          rays.hit.u[k], rays.hit.v[k]};
     }
   }

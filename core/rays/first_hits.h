@@ -23,9 +23,10 @@ class FirstHits {
   FirstHits(const FirstHits&) = delete;
   FirstHits& operator=(const FirstHits&) = delete;
 
-  /// The first hit farther than `near_distance` along each direction (unit length; neighbours in the span should be neighbours
-  /// in direction). One hit per direction. Any thread.
-  void trace(const glm::vec3& origin, float near_distance, std::span<const glm::vec3> directions, std::span<Hit> hits) const;
+  /// The first hit farther than `near_distance` along each direction (unit length; neighbours in the span
+  /// should be neighbours in direction). One hit per direction. Any thread.
+  void trace(const glm::vec3& origin, float near_distance, std::span<const glm::vec3> directions,
+             std::span<Hit> hits) const;
 
  private:
   struct Impl;
