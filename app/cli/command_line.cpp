@@ -1,31 +1,37 @@
 #include "cli/command_line.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <iostream>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
+#include "base/parse.h"
 #include "cli/commands.h"
 #include "exit_codes.h"
 
 namespace unshot {
 namespace {
 
-struct Command {
+struct CommandRow {
   std::string_view name;
-  void (*add)(CLI::App& app, Run& run);
+  std::string_view description;
+  void (*set_up)(Command& command);
 };
 
-constexpr std::array<Command, 5> kCommands = {{{"view", addViewCommand},
-                                               {"solve", addSolveCommand},
-                                               {"check", addCheckCommand},
-                                               {"compare", addCompareCommand},
-                                               {"list", addListCommand}}};
+constexpr std::array<CommandRow, 5> kCommands = {
+    {{"view", "Open the viewer (not part of this version yet)", setUpView},
+     {"solve", "Solve a scene without a window and write pictures, solutions, reports", setUpSolve},
+     {"check", "Say what is in a scene, what is wrong with it and what it does not need", setUpCheck},
+     {"compare", "Compare two pictures (PNG, HDR), solutions (PLY) or tables of probes (CSV)", setUpCompare},
+     {"list", "List every mode, method, display, exporter and provider, and what works here", setUpList}}};
 
 constexpr const char* kFooter =
-    "Without a command, `unshot SCENE.obj` opens the viewer.\n"
+    "unshot COMMAND --help says more. Without a command, the viewer opens.\n"
     "\n"
     "Exit codes: 0 done, 1 internal error, 2 usage, 3 input, 4 environment, 5 not converged\n"
     "within the limits given, 6 comparison failed, 130 interrupted. After 5 and 130 the\n"
@@ -33,9 +39,27 @@ constexpr const char* kFooter =
 
 std::string commandNames() {
   std::string names;
-  for (const Command& command : kCommands) names += (names.empty() ? "" : ", ") + std::string(command.name);
+  for (const CommandRow& command : kCommands)
+    names += (names.empty() ? "" : ", ") + std::string(command.name);
   return names;
 }
+
+/// CLI11's help with our words.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  HelpFormatter() {
+    column_width(26);
+    label("Positionals", "Arguments");
+    label("OPTIONS", "options");
+  }
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    if (app->get_parent()) return CLI::Formatter::make_usage(app, name);
+    return "Usage: unshot [SCENE.obj]\n       unshot COMMAND [options]\n";
+  }
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    return CLI::detail::find_and_replace(CLI::Formatter::make_help(app, name, mode), "\n\n\n", "\n\n");
+  }
+};
 
 /// The arguments without the program's name, with `view` put first where no command is named.
 std::vector<std::string> argumentsOf(int argc, const char* const* argv) {
@@ -65,9 +89,11 @@ std::string messageOf(const CLI::ParseError& error) {
   const std::string name = text.substr(0, text.find(':'));
   if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
     const std::string extra = text.substr(text.rfind(": ") + 2);
-    const std::string first = extra.substr(0, extra.find(' '));
-    return first.starts_with('-') ? "there is no option '" + first + "'"
-                                  : "'" + first + "' is one argument too many";
+    // An unknown option leaves its value behind as well; the option is what to name.
+    for (const std::string_view word : splitParts(extra, ' ')) {
+      if (word.starts_with('-')) return "there is no option '" + std::string(word) + "'";
+    }
+    return "'" + extra.substr(0, extra.find(' ')) + "' is one argument too many";
   }
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
     return text.find("At Most") != std::string::npos ? name + " may be given only once"
@@ -89,7 +115,7 @@ std::string messageOf(const CLI::ParseError& error) {
 }  // namespace
 
 bool isCommand(std::string_view word) {
-  return std::any_of(kCommands.begin(), kCommands.end(), [&](const Command& c) { return c.name == word; });
+  return std::any_of(kCommands.begin(), kCommands.end(), [&](const CommandRow& c) { return c.name == word; });
 }
 
 int runCommandLine(int argc, const char* const* argv) {
@@ -98,11 +124,16 @@ int runCommandLine(int argc, const char* const* argv) {
                "unshot");
   app.set_version_flag("--version", std::string("unshot ") + UNSHOT_VERSION, "Print the version and end");
   app.set_help_flag("-h,--help", "Print this help and end");
-  app.get_formatter()->column_width(26);
+  app.formatter(std::make_shared<HelpFormatter>());
   app.footer(kFooter);
   app.require_subcommand(1);
-  Run run;
-  for (const Command& command : kCommands) command.add(app, run);
+  std::vector<std::pair<CLI::App*, std::unique_ptr<Command>>> commands;
+  for (const CommandRow& row : kCommands) {
+    CLI::App* parser =
+        app.add_subcommand(std::string(row.name), std::string(row.description))->group("Commands");
+    commands.emplace_back(parser, std::make_unique<Command>(*parser));
+    row.set_up(*commands.back().second);
+  }
   try {
     // CLI11 takes the arguments from the end.
     std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
@@ -112,7 +143,9 @@ int runCommandLine(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     throw Error(ErrorKind::kUsage, messageOf(error), {}, adviceOf(arguments));
   }
-  const int code = run();
+  const auto chosen =
+      std::find_if(commands.begin(), commands.end(), [](const auto& c) { return c.first->parsed(); });
+  const int code = chosen->second->run();
   std::cout.flush();
   if (!std::cout)
     throw Error(ErrorKind::kEnvironment, "standard output cannot be written", {}, "check where it leads");

@@ -13,9 +13,11 @@
 namespace unshot {
 namespace {
 
-/// One table: the option that takes its keys, and a row each: key, title, help, and why it cannot be had on this machine.
+/// One table: the option that takes its keys, and a row each: key, title, help, and why it cannot be had on
+/// this machine.
 template <class Row, class Unavailable>
-void printTable(const std::string& title, std::span<const Row> table, const std::string& prefix, Unavailable unavailable) {
+void printTable(const std::string& title, std::span<const Row> table, const std::string& prefix,
+                Unavailable unavailable) {
   std::size_t key_width = 0, title_width = 0;
   for (const Row& row : table) {
     key_width = std::max(key_width, prefix.size() + row.info.key.size());
@@ -27,7 +29,8 @@ void printTable(const std::string& title, std::span<const Row> table, const std:
     std::cout << "  " << key << std::string(key_width - key.size() + 2, ' ') << row.info.title
               << std::string(title_width - row.info.title.size() + 2, ' ') << row.info.help << "\n";
     const std::string reason = unavailable(row);
-    if (!reason.empty()) std::cout << std::string(key_width + 4, ' ') << "not available here: " << reason << "\n";
+    if (!reason.empty())
+      std::cout << std::string(key_width + 4, ' ') << "not available here: " << reason << "\n";
   }
   std::cout << "\n";
 }
@@ -48,10 +51,6 @@ int runList() {
 
 }  // namespace
 
-void addListCommand(CLI::App& app, Run& run) {
-  CLI::App* command =
-      app.add_subcommand("list", "List every mode, method, display, exporter and provider, and what works here");
-  command->callback([&run] { run = [] { return runList(); }; });
-}
+void setUpList(Command& command) { command.run = runList; }
 
 }  // namespace unshot

@@ -93,7 +93,9 @@ int runSolve(const SolveRequest& request) {
   // A picture needs GL: where there is none, that is said before the solve.
   if (request.needsPicture()) context.get();
   progress.phase("reading " + request.scene.string());
+  const double load_began = wallSeconds();
   Scene scene = readObj(request.scene);
+  const double load_seconds = wallSeconds() - load_began;
   progress.finish();
   printDiagnostics(std::cerr, scene.diagnostics);
   const std::size_t said = scene.diagnostics.size();
@@ -109,14 +111,15 @@ int runSolve(const SolveRequest& request) {
   const auto record = [&] {
     RunRecord r = recordOf(solve);
     r.gl = context.record();
+    r.seconds.load = load_seconds;
     return r;
   };
   PictureMaker pictures(context, snapshot, request.picture);
   ExportSource source{.snapshot = snapshot,
                       .with_ambient = request.picture.ambient,
-                      .exposure = exposureOf(snapshot, request.picture.ambient),
-                      .picture = [&] { return pictures.display(); },
-                      .radiance = [&] { return pictures.radiance(); },
+                      .exposure = vertexExposure(snapshot, request.picture.ambient),
+                      .picture = [&]() -> const Image8& { return pictures.get().srgb; },
+                      .radiance = [&]() -> const ImageF& { return pictures.get().linear; },
                       .report = [&] { return reportJson(record()); },
                       .probes = probes,
                       .warn = [](const Diagnostic& d) { printDiagnostics(std::cerr, {d}); }};
@@ -130,16 +133,14 @@ int runSolve(const SolveRequest& request) {
 
 }  // namespace
 
-void addSolveCommand(CLI::App& app, Run& run) {
-  CLI::App* command =
-      app.add_subcommand("solve", "Solve a scene without a window and write pictures, solutions, reports");
-  command->footer(
+void setUpSolve(Command& command) {
+  command.footer(
       "Lengths are in the scene's unit, taken as metres. Ctrl-C stops between two steps and writes what\n"
       "was reached; a second one ends the program at once.\n"
       "\n"
       "Example: unshot solve scene.obj --elements 20000 --png picture.png --report figures.json");
-  auto arguments = std::make_shared<SolveArguments>(*command);
-  command->callback([arguments, &run] { run = [arguments] { return runSolve(arguments->request()); }; });
+  auto arguments = std::make_shared<SolveArguments>(command);
+  command.run = [arguments] { return runSolve(arguments->request()); };
 }
 
 }  // namespace unshot

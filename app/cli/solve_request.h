@@ -2,27 +2,16 @@
 #pragma once
 
 #include <filesystem>
-#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/options.h"
 #include "export/exporters.h"
+#include "render/picture.h"
 #include "session/solve.h"
 
 namespace unshot {
-
-/// The picture as asked for; points in the file's own coordinates. What is not given is chosen from the
-/// scene.
-struct PictureRequest {
-  int width = 800, height = 600;
-  std::optional<glm::dvec3> eye, at, up;
-  std::optional<double> fov_deg;
-  std::string display = "radiosity";
-  double exposure_stops = 0;
-  bool ambient = false;
-};
 
 /// A file to be written.
 struct Output {
@@ -35,31 +24,31 @@ struct SolveRequest {
   SolveOptions options;
   std::string gl = "auto";
   std::filesystem::path shader_dir;
-  PictureRequest picture;
+  PictureOptions picture;
   std::filesystem::path probe;
   std::vector<Output> outputs;
 
   bool needsPicture() const;
 };
 
-/// The options of `unshot solve` while they are parsed: text that CLI11 fills in.
+/// The options of `unshot solve` as they are parsed.
 class SolveArguments {
  public:
-  explicit SolveArguments(CLI::App& command);
+  explicit SolveArguments(Command& command);
   /// Checks what can be checked without reading anything. Throws Error (kUsage).
   SolveRequest request() const;
 
  private:
-  void addSolver(CLI::App& command);
-  void addMesh(CLI::App& command);
-  void addLimits(CLI::App& command);
-  void addPicture(CLI::App& command);
-  void addOutputs(CLI::App& command);
+  void addSolver(Command& command);
+  void addMesh(Command& command);
+  void addLimits(Command& command);
+  void addPicture(Command& command);
+  void addOutputs(Command& command);
 
   SolveOptions options_;
   std::string scene_, gl_ = "auto", shader_dir_, probe_, emit_ = "both";
   std::optional<std::uint64_t> kept_mb_;
-  PictureRequest picture_;
+  PictureOptions picture_;
   std::string size_, eye_, at_, up_;
   std::vector<std::string> outputs_;  ///< one per exporter, empty where not asked for
 };

@@ -20,6 +20,10 @@ std::string rendererText(const RunRecord& record) {
 
 }  // namespace
 
+std::string planText(const PlanDecision& decision) {
+  return decision.what + ": " + decision.why + (decision.saving.empty() ? "" : " (" + decision.saving + ")");
+}
+
 void printSummary(std::ostream& out, const RunRecord& record, const SolveOptions& options,
                   const std::vector<std::string>& written) {
   const PhaseSeconds& seconds = record.seconds;
@@ -42,10 +46,7 @@ void printSummary(std::ostream& out, const RunRecord& record, const SolveOptions
                      memoryText(static_cast<double>(record.kept_bytes)) + " of it kept form factors"},
       {"stopped by", stopText(record, options)},
   };
-  for (const PlanDecision& decision : record.plan) {
-    lines.emplace_back("plan", decision.what + ": " + decision.why +
-                                   (decision.saving.empty() ? "" : " (" + decision.saving + ")"));
-  }
+  for (const PlanDecision& decision : record.plan) lines.emplace_back("left out", planText(decision));
   for (const std::string& file : written) lines.emplace_back("written", file);
   printLines(out, lines);
 }

@@ -9,6 +9,9 @@
 
 namespace unshot {
 
+/// "what: why (saving)".
+std::string planText(const PlanDecision& decision);
+
 /// Short and aligned; `written` are the files written.
 void printSummary(std::ostream& out, const RunRecord& record, const SolveOptions& options,
                   const std::vector<std::string>& written);

@@ -29,7 +29,7 @@ std::string countText(std::uint64_t count) {
 std::string figureText(double value) {
   const double size = std::abs(value);
   if (size == 0) return "0";
-  if (!std::isfinite(value) || size < 1e-4 || size >= 1e7) return formatted("%.3g", value);
+  if (!std::isfinite(value) || size < 1e-4 || size >= 1e6) return formatted("%.3g", value);
   const int digits = std::clamp(2 - static_cast<int>(std::floor(std::log10(size))), 0, 6);
   char buffer[64];
   std::snprintf(buffer, sizeof buffer, "%.*f", digits, value);
@@ -45,6 +45,7 @@ std::string percentText(double fraction) { return figureText(100 * fraction) + "
 
 std::string durationText(double seconds) {
   if (!(seconds >= 0) || seconds > 1e9) return "?";
+  if (seconds < 0.0995) return figureText(std::round(1e4 * seconds) / 10) + " ms";
   if (seconds < 1) return formatted("%.3f s", seconds);
   if (seconds < 99.95) return formatted(seconds < 9.995 ? "%.2f s" : "%.1f s", seconds);
   const double minutes = std::floor(seconds / 60);
@@ -71,8 +72,12 @@ std::string countedText(std::uint64_t count, const std::string& one, const std::
 void printLines(std::ostream& out, const Lines& lines) {
   std::size_t width = 0;
   for (const auto& line : lines) width = std::max(width, line.first.size());
-  for (const auto& [label, value] : lines)
-    out << label << std::string(width - label.size() + 2, ' ') << value << "\n";
+  std::string last;
+  for (const auto& [label, value] : lines) {
+    const std::string shown = label == last ? "" : label;
+    out << shown << std::string(width - shown.size() + 2, ' ') << value << "\n";
+    last = label;
+  }
 }
 
 void printDiagnostics(std::ostream& out, const Diagnostics& diagnostics) {

@@ -18,7 +18,7 @@ std::string countText(std::uint64_t count);
 std::string figureText(double value);
 /// A fraction as "1.23 %".
 std::string percentText(double fraction);
-/// "0.123 s", "12.3 s", "3 min 20 s", "2 h 5 min".
+/// "1.2 ms", "0.123 s", "12.3 s", "3 min 20 s", "2 h 5 min".
 std::string durationText(double seconds);
 /// "12.3 MB".
 std::string memoryText(double bytes);
@@ -27,7 +27,7 @@ std::string extentText(const glm::dvec3& extent);
 /// "1 face", "2 faces", "1,234 patches" (the plural is given where it is not made with an s).
 std::string countedText(std::uint64_t count, const std::string& one, const std::string& many = {});
 
-/// Lines of a label and a value, with the values aligned.
+/// Lines of a label and a value, with the values aligned. A label that repeats the line before is left out.
 using Lines = std::vector<std::pair<std::string, std::string>>;
 void printLines(std::ostream& out, const Lines& lines);
 

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <climits>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -106,6 +107,7 @@ fs::path resolveTarget(const fs::path& path) {
   }
   if (!target.has_filename() || fs::is_directory(target, error))
     fail(path, "it is a folder", "a file name in it");
+  if (target.filename().native().size() > NAME_MAX) failWith(path, ENAMETOOLONG);
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   if (!fs::exists(folder, error)) {
     fail(path, "the folder " + folder.string() + " does not exist", "mkdir -p " + folder.string());

@@ -42,20 +42,23 @@ void writeReport(const ExportSource& source, const std::filesystem::path& path) 
 
 std::span<const Exporter> exporters() {
   static constexpr std::array<Exporter, 5> kTable = {{
-      {{"png", "PNG picture", "the picture as displayed, 8 bits"}, ".png", true, writePngPicture},
-      {{"hdr", "Radiance HDR picture", "the picture as linear radiosity [W/m^2]"},
-       ".hdr",
-       true,
-       writeHdrPicture},
-      {{"ply", "PLY solution", "the mesh with radiosity at its vertices"}, ".ply", false, writePly},
-      {{"probe-out", "Probe values", "radiosity at the points of --probe, as CSV"},
-       ".csv",
-       false,
-       writeProbes},
-      {{"report", "JSON report", "figures of the solve: counts, times, errors, energy, history"},
-       ".json",
-       false,
-       writeReport},
+      {.info = {"png", "PNG picture", "the picture as displayed, 8 bits"},
+       .ending = ".png",
+       .needs = PictureNeed::kDisplayed,
+       .write = writePngPicture},
+      {.info = {"hdr", "Radiance HDR picture", "the picture in linear values [W/m^2]"},
+       .ending = ".hdr",
+       .needs = PictureNeed::kLinear,
+       .write = writeHdrPicture},
+      {.info = {"ply", "PLY solution", "the mesh with radiosity at its vertices"},
+       .ending = ".ply",
+       .write = writePly},
+      {.info = {"probe-out", "Probe values", "radiosity at the points of --probe, as CSV"},
+       .ending = ".csv",
+       .write = writeProbes},
+      {.info = {"report", "JSON report", "figures: counts, times, errors, energy, history"},
+       .ending = ".json",
+       .write = writeReport},
   }};
   return kTable;
 }

@@ -20,20 +20,23 @@ namespace unshot {
 struct ExportSource {
   const Snapshot& snapshot;
   bool with_ambient = false;
-  double exposure = 1;                  ///< the factor that makes radiosity 0..1 for 8-bit colours of vertices
-  std::function<Image8()> picture;      ///< as displayed
-  std::function<ImageF()> radiance;     ///< linear B [W/m^2] at the same pixels
-  std::function<std::string()> report;  ///< JSON
+  double exposure = 1;  ///< the factor that makes radiosity 0..1 for 8-bit colours of vertices
+  std::function<const Image8&()> picture;   ///< as displayed
+  std::function<const ImageF&()> radiance;  ///< linear B [W/m^2] at the same pixels
+  std::function<std::string()> report;      ///< JSON
   std::span<const Probe> probes;
   std::function<void(const Diagnostic&)> warn;
 };
 
+/// What an exporter wants of a picture.
+enum class PictureNeed { kNoPicture, kDisplayed, kLinear };
+
 struct Exporter {
   ChoiceInfo info;
   std::string_view ending;  ///< usual ending of the file's name, with its dot
-  bool needs_picture;       ///< calls `picture` or `radiance`
+  PictureNeed needs = PictureNeed::kNoPicture;
   /// Throws Error (kEnvironment where the file cannot be written, or what the source throws).
-  void (*write)(const ExportSource& source, const std::filesystem::path& path);
+  void (*write)(const ExportSource& source, const std::filesystem::path& path) = nullptr;
 };
 
 std::span<const Exporter> exporters();

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "base/srgb.h"
+#include "base/tone.h"
 
 namespace unshot {
 namespace {
@@ -46,7 +47,8 @@ std::string plyBytes(const Snapshot& snapshot, bool with_ambient, double exposur
     append(bytes, glm::dvec3(mesh.vertices[v].position) + mesh.frame_origin);
     append(bytes, glm::dvec3(mesh.vertices[v].normal));
     append(bytes, b);
-    for (int k = 0; k < 3; ++k) append(bytes, srgb8FromLinear(exposure * b[k]));
+    const glm::dvec3 shown = toneMap(exposure * b);
+    for (int k = 0; k < 3; ++k) append(bytes, srgb8FromLinear(shown[k]));
   }
   for (std::size_t k = 0; k + 2 < mesh.triangle_vertices.size(); k += 3) {
     append(bytes, static_cast<std::uint8_t>(3));

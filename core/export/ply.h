@@ -10,9 +10,10 @@
 
 namespace unshot {
 
-/// The bytes of a PLY file. Per vertex: x y z (file coordinates) nx ny nz radiosity_r radiosity_g radiosity_b (float,
-/// linear, E included) and red green blue (8 bits, sRGB; `exposure` is the factor that makes radiosity 0..1); triangles,
-/// wound counter-clockwise as seen from the side they belong to. Vertices are doubled where values jump.
+/// The bytes of a PLY file. Per vertex: x y z (file coordinates) nx ny nz radiosity_r radiosity_g radiosity_b
+/// (float, linear, E included) and red green blue (8 bits: exposed by the factor `exposure`, tone-mapped,
+/// sRGB); triangles, wound counter-clockwise as seen from the side they belong to. Vertices are doubled where
+/// values jump.
 std::string plyBytes(const Snapshot& snapshot, bool with_ambient, double exposure);
 
 /// What compare needs of a PLY file.

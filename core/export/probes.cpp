@@ -11,7 +11,7 @@ namespace unshot {
 namespace {
 
 constexpr double kLeastCosine = 0.5;       // between the normals of probe and side
-constexpr double kReachOfDiagonal = 1e-3;  // a probe farther away from every side is off the scene
+constexpr double kReachOfDiagonal = 2e-3;  // a face that is not planar may be split along another diagonal
 
 /// The triangles that probes can lie on: the display triangles, and both sides of the scene's own where a
 /// side is dark.

@@ -25,7 +25,7 @@ std::vector<Probe> readProbes(const std::filesystem::path& path);
 
 /// B [W/m^2] (with E) at each probe: interpolated over the display triangles of the nearest surface side
 /// whose normal is within 60 degrees of the probe's. A side that no light can reach counts with B = 0.
-/// Nothing for a probe farther than 1/1000 of the scene's diagonal from every such side.
+/// Nothing for a probe farther than 1/500 of the scene's diagonal from every such side.
 std::vector<std::optional<glm::dvec3>> answerProbes(const Snapshot& snapshot, std::span<const Probe> probes,
                                                     bool with_ambient);
 

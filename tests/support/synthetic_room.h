@@ -115,15 +115,8 @@ class RoomBuilder {
     const std::array<glm::dvec2, 4> corners = {
         glm::dvec2(0, 0), {surface.extent.x, 0}, surface.extent, {0, surface.extent.y}};
     for (const glm::dvec2& uv : corners) mesh.positions.push_back(surface.point(uv));
-    for (std::uint32_t k = 1; k <= 2; ++k) {
-      ChartTriangle triangle;
-      const std::uint32_t used[3] = {0, k, k + 1};
-      for (std::size_t i = 0; i < 3; ++i) {
-        triangle.uv[i] = corners[used[i]];
-        triangle.position[i] = first + used[i];
-      }
-      mesh.triangles.push_back(triangle);
-    }
+    mesh.triangles.push_back({{corners[0], corners[1], corners[2]}, {first, first + 1, first + 2}, {}});
+    mesh.triangles.push_back({{corners[0], corners[2], corners[3]}, {first, first + 2, first + 3}, {}});
   }
 
   RoomOptions options_;

@@ -1,0 +1,161 @@
+// Solving for real: what is written, how it ends, and that nothing is lost on the way.
+#include <gmock/gmock.h>
+#include <time.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/run_program.h"
+#include "support/scenes.h"
+
+namespace unshot {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+using testing_support::ProgramResult;
+using testing_support::ProgramRun;
+using testing_support::runProgram;
+using testing_support::TempFolder;
+using testing_support::writeRoom;
+
+TEST(Solve, WritesEverythingAskedFor) {
+  const TempFolder folder;
+  writeRoom(folder, testing_support::boxObj());
+  folder.write("points.csv", "# a comment\nx,y,z,nx,ny,nz\n0.1,0,0.1,0,1,0\n0.5,0.5,0.5,0,1,0\n");
+  const ProgramResult result = runProgram(
+      folder, {"solve", "room.obj", "--elements", "300", "--png", "p.png", "--hdr", "p.hdr", "--ply", "p.ply",
+               "--report", "p.json", "--probe", "points.csv", "--probe-out", "p.csv", "--size", "64x48"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(folder.names(), ElementsAre("p.csv", "p.hdr", "p.json", "p.ply", "p.png", "points.csv",
+                                          "room.mtl", "room.obj"));
+  EXPECT_THAT(folder.read("p.png"), StartsWith("\x89PNG"));
+  EXPECT_THAT(folder.read("p.hdr"), StartsWith("#?RADIANCE"));
+  EXPECT_THAT(folder.read("p.ply"), StartsWith("ply\nformat binary_little_endian 1.0\n"));
+  EXPECT_THAT(folder.read("p.csv"), AllOf(StartsWith("x,y,z,nx,ny,nz,B_r,B_g,B_b\n0.1,0,0.1,0,1,0,"),
+                                          HasSubstr("\n0.5,0.5,0.5,0,1,0,,,\n")));
+  EXPECT_THAT(result.err, HasSubstr("warning: 1 of 2 probes lie on no surface"));
+  for (const char* label :
+       {"scene ", "mesh ", "method ", "renderer ", "shots ", "unshot ", "time ", "stopped by ", "written "}) {
+    EXPECT_THAT(result.out, HasSubstr(label));
+  }
+  const nlohmann::json report = nlohmann::json::parse(folder.read("p.json"));
+  EXPECT_EQ(report["stopped_by"], "error");
+  EXPECT_NEAR(report["counts"]["elements"].get<double>(), 300, 30);
+  EXPECT_LE(report["unshot_fraction"].get<double>(), 0.01);
+  EXPECT_TRUE(report["gl"]["renderer"].is_string());
+  EXPECT_GT(report["history"].size(), 0u);
+  const double emitted = report["energy"]["emitted"].get<double>();
+  EXPECT_NEAR(report["energy"]["residual"].get<double>(), 0, 1e-9 * emitted);
+}
+
+TEST(Solve, WithoutOutputsPrintsTheSummary) {
+  const TempFolder folder;
+  writeRoom(folder);
+  const auto before = folder.names();
+  const ProgramResult result = runProgram(folder, {"solve", "room.obj", "--elements", "60"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("stopped by"));
+  EXPECT_EQ(folder.names(), before);
+}
+
+TEST(Solve, TheSameTwiceIsTheSame) {
+  const TempFolder folder;
+  writeRoom(folder);
+  for (const char* file : {"a.ply", "b.ply"}) {
+    ASSERT_EQ(runProgram(folder, {"solve", "room.obj", "--elements", "100", "--ply", file}).code, 0);
+  }
+  EXPECT_EQ(folder.read("a.ply"), folder.read("b.ply"));
+}
+
+TEST(Solve, AtALimitEndsWith5AndWritesTheResult) {
+  const TempFolder folder;
+  writeRoom(folder);
+  const ProgramResult result =
+      runProgram(folder, {"solve", "room.obj", "--elements", "200", "--error", "1e-6", "--max-shots", "3",
+                          "--ply", "p.ply", "--report", "p.json"});
+  EXPECT_EQ(result.code, 5);
+  EXPECT_THAT(result.err,
+              AllOf(HasSubstr("unshot: not converged"), HasSubstr("max_shots"), HasSubstr("\n  try: ")));
+  EXPECT_EQ(nlohmann::json::parse(folder.read("p.json"))["stopped_by"], "max_shots");
+  EXPECT_THAT(folder.read("p.ply"), StartsWith("ply\n"));
+}
+
+TEST(Solve, OutputThatCannotBeWrittenIsFoundBeforeTheSolve) {
+  const TempFolder folder;
+  writeRoom(folder);
+  std::filesystem::create_directory(folder / "sub");
+  folder.write("old.png", "old");
+  const auto before = folder.names();
+  for (const char* bad : {"no/such/folder.png", "sub", "sub/", "old.png/inside.png"}) {
+    const ProgramResult result = runProgram(folder, {"solve", "room.obj", "--png", bad});
+    EXPECT_EQ(result.code, 4) << bad;
+    EXPECT_THAT(result.err, AllOf(StartsWith(std::string("unshot: ") + bad), HasSubstr("\n  try: "))) << bad;
+    EXPECT_THAT(result.out, IsEmpty()) << "the solve ran";
+  }
+  EXPECT_EQ(folder.names(), before);
+  EXPECT_EQ(folder.read("old.png"), "old");
+}
+
+TEST(Solve, AnOutputThatFailsLateDoesNotCostTheOthers) {
+  const TempFolder folder;
+  writeRoom(folder);
+  // A full disk: it shows only when written to. The PLY file comes before the report, so put the failure
+  // first.
+  const ProgramResult result = runProgram(
+      folder, {"solve", "room.obj", "--elements", "60", "--ply", "/dev/full", "--report", "p.json"});
+  EXPECT_EQ(result.code, 4);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("unshot: /dev/full: cannot be written"), HasSubstr("\n  try: ")));
+  EXPECT_THAT(folder.read("p.json"), StartsWith("{"));
+  EXPECT_THAT(result.out, HasSubstr("p.json"));
+}
+
+/// Waits until `ready`, looking again every 5 ms; false after two minutes.
+template <class Ready>
+bool eventually(Ready ready) {
+  for (int k = 0; k < 24000; ++k) {
+    if (ready()) return true;
+    const timespec pause{0, 5'000'000};
+    ::nanosleep(&pause, nullptr);
+  }
+  return false;
+}
+
+class SolveInterrupted : public testing::TestWithParam<int> {};
+
+TEST_P(SolveInterrupted, EndsWith130AndWritesTheResult) {
+  const TempFolder folder;
+  writeRoom(folder, testing_support::boxObj());
+  ProgramRun run(folder.path(), {"solve", "room.obj", "--elements", "40000", "--error", "1e-12", "--ply",
+                                 "p.ply", "--report", "p.json"});
+  ASSERT_TRUE(
+      eventually([&] { return run.errorsSoFar().find("solving: ") != std::string::npos || !run.running(); }));
+  run.send(GetParam());
+  const ProgramResult result = run.wait();
+  EXPECT_EQ(result.code, 130) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("interrupted"));
+  EXPECT_EQ(nlohmann::json::parse(folder.read("p.json"))["stopped_by"], "interrupted");
+  EXPECT_THAT(folder.names(), ElementsAre("p.json", "p.ply", "room.mtl", "room.obj"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, SolveInterrupted, testing::Values(SIGINT, SIGTERM, SIGHUP));
+
+TEST(Check, PrintsFiguresAndJson) {
+  const TempFolder folder;
+  writeRoom(folder);
+  const ProgramResult text = runProgram(folder, {"check", "room.obj"});
+  EXPECT_EQ(text.code, 0);
+  EXPECT_THAT(text.out, AllOf(HasSubstr("faces"), HasSubstr("closed"), HasSubstr("yes"),
+                              HasSubstr("Nothing is wrong")));
+  const ProgramResult json = runProgram(folder, {"check", "room.obj", "--json"});
+  EXPECT_EQ(json.code, 0);
+  const nlohmann::json figures = nlohmann::json::parse(json.out);
+  EXPECT_EQ(figures["scene"]["faces"], 6);
+  EXPECT_EQ(figures["scene"]["closed"], true);
+  EXPECT_TRUE(figures["plan"].is_array());
+}
+
+}  // namespace
+}  // namespace unshot

@@ -1,0 +1,73 @@
+// Runs the program as a user does.
+#pragma once
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "support/temp_folder.h"
+
+namespace unshot::testing_support {
+
+struct ProgramResult {
+  int code = -1;  ///< exit code; 128 + signal where one ended it
+  std::string out, err;
+};
+
+/// A run of UNSHOT_PROGRAM in `folder`.
+class ProgramRun {
+ public:
+  ProgramRun(const std::filesystem::path& folder, const std::vector<std::string>& arguments) {
+    std::vector<std::string> words = {UNSHOT_PROGRAM};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    const std::string out = streams_ / "out", err = streams_ / "err";
+    pid_ = ::fork();
+    if (pid_ < 0) throw std::runtime_error("fork failed");
+    if (pid_ == 0) {
+      redirect("/dev/null", O_RDONLY, STDIN_FILENO);
+      redirect(out.c_str(), O_WRONLY | O_CREAT, STDOUT_FILENO);
+      redirect(err.c_str(), O_WRONLY | O_CREAT, STDERR_FILENO);
+      if (::chdir(folder.c_str()) == 0) ::execv(argv[0], argv.data());
+      ::_exit(127);
+    }
+  }
+  ProgramRun(const ProgramRun&) = delete;
+  ProgramRun& operator=(const ProgramRun&) = delete;
+
+  void send(int signal) const { ::kill(pid_, signal); }
+  /// What it has written to standard error so far.
+  std::string errorsSoFar() const { return streams_.read("err"); }
+  bool running() {
+    if (status_ < 0 && ::waitpid(pid_, &status_, WNOHANG) == 0) status_ = -1;
+    return status_ < 0;
+  }
+  ProgramResult wait() {
+    if (status_ < 0) ::waitpid(pid_, &status_, 0);
+    const int code = WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
+    return {code, streams_.read("out"), streams_.read("err")};
+  }
+
+ private:
+  static void redirect(const char* file, int flags, int target) {
+    const int descriptor = ::open(file, flags, 0600);
+    if (descriptor < 0 || ::dup2(descriptor, target) < 0) ::_exit(126);
+  }
+
+  TempFolder streams_;
+  pid_t pid_ = -1;
+  int status_ = -1;
+};
+
+inline ProgramResult runProgram(const TempFolder& folder, const std::vector<std::string>& arguments) {
+  return ProgramRun(folder.path(), arguments).wait();
+}
+
+}  // namespace unshot::testing_support

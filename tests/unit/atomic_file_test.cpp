@@ -1,0 +1,105 @@
+#include "export/atomic_file.h"
+
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <functional>
+
+#include "base/error.h"
+#include "support/temp_folder.h"
+
+namespace unshot {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing_support::TempFolder;
+
+Error errorOf(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error;
+  }
+  ADD_FAILURE() << "no Error";
+  return Error(ErrorKind::kInternal, "none");
+}
+
+TEST(AtomicFile, WritesAndReplacesAWholeFile) {
+  const TempFolder folder;
+  writeWholeFile(folder / "a.txt", "first");
+  EXPECT_EQ(folder.read("a.txt"), "first");
+  writeWholeFile(folder / "a.txt", "2nd");
+  EXPECT_EQ(folder.read("a.txt"), "2nd");
+  EXPECT_THAT(folder.names(), ElementsAre("a.txt"));
+}
+
+TEST(AtomicFile, WritesIntoTheWorkingFolder) {
+  const TempFolder folder;
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  checkWritable("plain.txt");
+  writeWholeFile("plain.txt", "x");
+  std::filesystem::current_path(before);
+  EXPECT_THAT(folder.names(), ElementsAre("plain.txt"));
+}
+
+TEST(AtomicFile, KeepsThePermissionsOfTheFileItReplaces) {
+  const TempFolder folder;
+  const std::string file = folder.write("a.txt", "old");
+  ASSERT_EQ(::chmod(file.c_str(), 0640), 0);
+  writeWholeFile(file, "new");
+  struct stat status {};
+  ASSERT_EQ(::stat(file.c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 07777, 0640u);
+}
+
+TEST(AtomicFile, ReplacesWhatALinkNamesAndKeepsTheLink) {
+  const TempFolder folder;
+  folder.write("target.txt", "old");
+  std::filesystem::create_symlink("target.txt", folder / "link.txt");
+  writeWholeFile(folder / "link.txt", "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.txt"));
+  EXPECT_EQ(folder.read("target.txt"), "new");
+}
+
+TEST(AtomicFile, WritesToADeviceWithoutReplacingIt) {
+  checkWritable("/dev/null");
+  writeWholeFile("/dev/null", "gone");
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST(AtomicFile, CheckLeavesNothingBehindAndTouchesNothing) {
+  const TempFolder folder;
+  checkWritable(folder / "new.txt");
+  EXPECT_THAT(folder.names(), ElementsAre());
+  folder.write("old.txt", "kept");
+  checkWritable(folder / "old.txt");
+  EXPECT_EQ(folder.read("old.txt"), "kept");
+  EXPECT_THAT(folder.names(), ElementsAre("old.txt"));
+}
+
+TEST(AtomicFile, SaysWhyAPlaceCannotBeWritten) {
+  const TempFolder folder;
+  const Error missing = errorOf([&] { checkWritable(folder / "no/such/file.png"); });
+  EXPECT_EQ(missing.kind(), ErrorKind::kEnvironment);
+  EXPECT_THAT(missing.what(), HasSubstr("does not exist"));
+  EXPECT_EQ(missing.where(), folder / "no/such/file.png");
+  EXPECT_THAT(missing.advice(), HasSubstr("mkdir -p"));
+
+  EXPECT_THAT(errorOf([&] { checkWritable(folder.path()); }).what(), HasSubstr("it is a folder"));
+  EXPECT_THAT(errorOf([&] { writeWholeFile(folder.path(), "x"); }).what(), HasSubstr("it is a folder"));
+  const std::string file = folder.write("file", "x");
+  EXPECT_THAT(errorOf([&] { checkWritable(file + "/inside"); }).what(), HasSubstr("not a folder"));
+  EXPECT_THAT(errorOf([&] { checkWritable(""); }).what(), HasSubstr("empty"));
+  EXPECT_THAT(errorOf([&] { checkWritable(folder / std::string(300, 'n')); }).kind(),
+              ErrorKind::kEnvironment);
+  EXPECT_THAT(folder.names(), ElementsAre("file"));
+}
+
+TEST(AtomicFile, KeepsTheOldFileWhereTheDiskIsFull) {
+  EXPECT_THAT(errorOf([] { writeWholeFile("/dev/full", "x"); }).what(), HasSubstr("No space left"));
+}
+
+}  // namespace
+}  // namespace unshot

@@ -1,0 +1,160 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "base/error.h"
+#include "base/srgb.h"
+#include "export/exporters.h"
+#include "export/image_files.h"
+#include "export/ply.h"
+#include "support/synthetic_room.h"
+#include "support/temp_folder.h"
+
+namespace unshot {
+namespace {
+
+using testing::HasSubstr;
+using testing_support::TempFolder;
+
+TEST(ImageFiles, PngKeepsEveryByteAndIsDecodedFromSrgb) {
+  const TempFolder folder;
+  Image8 image{16, 16, {}};
+  for (int k = 0; k < 16 * 16 * 3; ++k) image.rgb.push_back(static_cast<std::uint8_t>(k % 256));
+  writePng(folder / "a.png", image);
+  const ImageF read = readImage(folder / "a.png");
+  ASSERT_EQ(read.width, 16);
+  ASSERT_EQ(read.rgb.size(), image.rgb.size());
+  for (std::size_t k = 0; k < image.rgb.size(); ++k) {
+    ASSERT_NEAR(read.rgb[k], linearFromSrgb(image.rgb[k] / 255.0), 1e-6) << k;
+    ASSERT_EQ(srgb8FromLinear(read.rgb[k]), image.rgb[k]);
+  }
+}
+
+TEST(ImageFiles, HdrKeepsLinearValuesToAPercent) {
+  const TempFolder folder;
+  ImageF image{9, 2, {}};
+  for (int k = 0; k < 9 * 2; ++k) {
+    const auto value = static_cast<float>(std::pow(10.0, k - 9));
+    image.rgb.insert(image.rgb.end(), {value, 0.7f * value, 0.5f * value});
+  }
+  writeHdr(folder / "a.hdr", image);
+  const ImageF read = readImage(folder / "a.hdr");
+  ASSERT_EQ(read.rgb.size(), image.rgb.size());
+  for (std::size_t k = 0; k < image.rgb.size(); ++k) EXPECT_NEAR(read.rgb[k] / image.rgb[k], 1, 0.012) << k;
+}
+
+TEST(ImageFiles, HdrTurnsWhatIsNoRadianceIntoBlack) {
+  const TempFolder folder;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  writeHdr(folder / "a.hdr", {1, 1, {-1, nan, 0}});
+  EXPECT_THAT(readImage(folder / "a.hdr").rgb, testing::Each(0.0f));
+}
+
+TEST(ImageFiles, RefusesWhatIsNoPicture) {
+  const TempFolder folder;
+  EXPECT_THROW(readImage(folder.write("a.png", "no picture")), Error);
+  EXPECT_THROW(readImage(folder / "missing.png"), Error);
+  writePng(folder / "whole.png", {4, 4, std::vector<std::uint8_t>(48)});
+  EXPECT_THROW(readImage(folder.write("cut.png", folder.read("whole.png").substr(0, 40))), Error);
+}
+
+TEST(Ply, HasTheLayoutOfTheDesign) {
+  const Snapshot room = testing_support::RoomBuilder({.frame_origin = {100, 0, -50}}).build();
+  const std::string bytes = plyBytes(room, false, 0.5);
+  const std::string header = bytes.substr(0, bytes.find("end_header\n") + 11);
+  EXPECT_THAT(header, HasSubstr("ply\nformat binary_little_endian 1.0\n"));
+  EXPECT_THAT(
+      header,
+      HasSubstr("property float x\nproperty float y\nproperty float z\nproperty float nx\nproperty float ny\n"
+                "property float nz\nproperty float radiosity_r\nproperty float radiosity_g\n"
+                "property float radiosity_b\nproperty uchar red\nproperty uchar green\n"
+                "property uchar blue\nelement face "));
+  const std::size_t vertices = room.mesh->vertices.size(),
+                    triangles = room.mesh->triangle_vertices.size() / 3;
+  EXPECT_EQ(bytes.size(), header.size() + 39 * vertices + 13 * triangles);
+  float first[9];
+  std::memcpy(first, bytes.data() + header.size(), sizeof first);
+  EXPECT_FLOAT_EQ(first[0], room.mesh->vertices[0].position.x + 100);
+  EXPECT_FLOAT_EQ(first[2], room.mesh->vertices[0].position.z - 50);
+  EXPECT_FLOAT_EQ(first[4], room.mesh->vertices[0].normal.y);
+  EXPECT_FLOAT_EQ(first[6], static_cast<float>(radiosity(room, 0, false).x));
+}
+
+TEST(Ply, TrianglesFaceTheirSide) {
+  const Snapshot room = testing_support::RoomBuilder({}).build();
+  const std::string bytes = plyBytes(room, false, 1);
+  const char* face = bytes.data() + bytes.find("end_header\n") + 11 + 39 * room.mesh->vertices.size();
+  for (std::size_t t = 0; t < room.mesh->triangle_vertices.size() / 3; ++t, face += 13) {
+    ASSERT_EQ(face[0], 3);
+    std::int32_t corner[3];
+    std::memcpy(corner, face + 1, sizeof corner);
+    const auto& vertices = room.mesh->vertices;
+    const glm::vec3 a = vertices[std::size_t(corner[0])].position,
+                    b = vertices[std::size_t(corner[1])].position,
+                    c = vertices[std::size_t(corner[2])].position;
+    EXPECT_GT(glm::dot(glm::cross(b - a, c - a), vertices[std::size_t(corner[0])].normal), 0) << t;
+  }
+}
+
+TEST(Ply, ReadsBackWhatItWrote) {
+  const TempFolder folder;
+  const Snapshot room = testing_support::RoomBuilder({}).build();
+  const PlySolution solution = readPly(folder.write("a.ply", plyBytes(room, false, 1)));
+  ASSERT_EQ(solution.positions.size(), room.mesh->vertices.size());
+  for (std::size_t v = 0; v < solution.positions.size(); ++v) {
+    EXPECT_EQ(solution.positions[v], glm::dvec3(room.mesh->vertices[v].position));
+    EXPECT_LT(glm::length(solution.radiosity[v] - radiosity(room, v, false)), 1e-6);
+  }
+}
+
+TEST(Ply, RefusesWhatItCannotRead) {
+  const TempFolder folder;
+  const std::string whole = plyBytes(testing_support::RoomBuilder({}).build(), false, 1);
+  const auto refused = [&](const std::string& content) {
+    try {
+      readPly(folder.write("a.ply", content));
+    } catch (const Error& error) {
+      return error.kind() == ErrorKind::kInput;
+    }
+    return false;
+  };
+  EXPECT_TRUE(refused("ply"));
+  EXPECT_TRUE(refused("hello"));
+  EXPECT_TRUE(refused("ply\nformat ascii 1.0\nend_header\n"));
+  EXPECT_TRUE(
+      refused("ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\nend_header\n"));
+  EXPECT_TRUE(refused(whole.substr(0, whole.find("end_header\n") + 100)));
+  std::string huge = whole;
+  const std::size_t count = huge.find("vertex ") + 7;
+  huge.replace(count, huge.find('\n', count) - count, "99999999999999999999");
+  EXPECT_TRUE(refused(huge));
+}
+
+TEST(Exporters, WriteWhatTheyAreGiven) {
+  const TempFolder folder;
+  const Snapshot room = testing_support::RoomBuilder({}).build();
+  const Image8 picture{2, 1, {0, 0, 0, 255, 255, 255}};
+  const ImageF radiance{1, 1, {1, 2, 4}};
+  const std::vector<Probe> probes = {{{0, 0, 0.9}, {0, 1, 0}}, {{0, 50, 0}, {0, 1, 0}}};
+  Diagnostics warnings;
+  const ExportSource source{.snapshot = room,
+                            .picture = [&]() -> const Image8& { return picture; },
+                            .radiance = [&]() -> const ImageF& { return radiance; },
+                            .report = [] { return std::string("{}\n"); },
+                            .probes = probes,
+                            .warn = [&](const Diagnostic& d) { warnings.push_back(d); }};
+  std::set<std::string> names;
+  for (const Exporter& exporter : exporters()) {
+    const std::string name = std::string(exporter.info.key) + std::string(exporter.ending);
+    exporter.write(source, folder / name);
+    names.insert(name);
+  }
+  EXPECT_EQ(folder.names(), names);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_THAT(warnings[0].message, HasSubstr("1 of 2 probes"));
+}
+
+}  // namespace
+}  // namespace unshot
