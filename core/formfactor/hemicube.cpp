@@ -36,12 +36,13 @@ constexpr double kEmitterShare = 1.0 / 64;
 // elements are coarse. Small patches of a fine scene are not split at all.
 constexpr double kFloorShare = 1.0 / 32;
 // Pixels along the top face. A converged solution rests on thousands of pictures, each turned by its own
-// angle, so 64 give the same error as 128 on the Cornell box (1.3 % at 10,000 elements) in half the time.
-// Where the scene has so many triangles that they set the cost, pixels are free.
+// angle, so 64 give the same error as 128 on the Cornell box (1.3 % at 10,000 elements) in half the time. The
+// few that show the emitters' shadows are finer.
 constexpr std::uint32_t kResolution = 64;
-constexpr std::uint32_t kManyTrianglesResolution = 128;
-constexpr std::size_t kManyTriangles = 5000;
 constexpr std::uint32_t kEmitterResolution = 256;
+constexpr std::uint32_t kTracedEmitterResolution = 128;  // a ray costs more than a drawn pixel
+// Where OpenGL runs in software, this many triangles are drawn slower than rays are traced.
+constexpr std::size_t kManyTriangles = 5000;
 
 // What the pixel loop needs of a surface, together in memory.
 struct SurfaceLookup {
@@ -54,9 +55,7 @@ class Hemicube final : public FormFactorMethod {
   Hemicube(const FormFactorSetup& setup) : mesh_(*setup.mesh), seed_(setup.seed) {
     chooseView(setup);
     floor_ = std::min(mesh_.element_size / 2, kFloorShare * glm::length(mesh_.bounds_max - mesh_.bounds_min));
-    const bool many = mesh_.triangles.size() > kManyTriangles;
-    resolution_ = many ? kManyTrianglesResolution : kResolution;
-    emitter_resolution_ = many ? kManyTrianglesResolution : kEmitterResolution;
+    resolution_ = kResolution;
     if (setup.hemicube_resolution != 0) resolution_ = emitter_resolution_ = setup.hemicube_resolution;
     for (const Surface& s : mesh_.surfaces) {
       SurfaceLookup lookup{s.nu, s.nv, s.first_cell, {kNone, kNone}};
@@ -127,10 +126,12 @@ class Hemicube final : public FormFactorMethod {
     }
     if (drawing == HemicubeDrawing::kRays) {
       view_ = std::make_unique<HemicubeRays>(mesh_);
+      emitter_resolution_ = kTracedEmitterResolution;
       note_ = "hemicubes are traced with rays: " + std::to_string(mesh_.triangles.size()) +
               " triangles are too many a picture for a software renderer";
     } else {
       view_ = std::make_unique<HemicubePicture>(setup.gl(), mesh_);
+      emitter_resolution_ = kEmitterResolution;
     }
   }
 
