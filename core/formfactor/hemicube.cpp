@@ -35,6 +35,8 @@ constexpr double kEmitterShare = 1.0 / 64;
 // The floor: parts are not smaller than about half an element, or than this share of the scene's size where
 // elements are coarse. Small patches of a fine scene are not split at all.
 constexpr double kFloorShare = 1.0 / 32;
+// However coarse a patch is, its column takes no more than a few hundred pictures: steps stay short.
+constexpr int kMostSplits = 4;
 // Pixels along the top face. A converged solution rests on thousands of pictures, each turned by its own
 // angle, so 64 give the same error as 128 on the Cornell box (1.3 % at 10,000 elements) in half the time. The
 // few that show the emitters' shadows are finer.
@@ -80,7 +82,7 @@ class Hemicube final : public FormFactorMethod {
     const Side& side = mesh_.sides[side_index];
     begin();
     const Region whole = regionOfPatch(mesh_, side.surface, q - side.first_patch);
-    shoot(whole, side, true, 1 / whole.area);
+    shoot(whole, side, kMostSplits, 1 / whole.area);
     Column out;
     takeReceived([&](std::uint32_t e, double f) {
       out.receiver.push_back(e);
@@ -100,7 +102,7 @@ class Hemicube final : public FormFactorMethod {
     point.surface = side.surface;
     point.area = mesh_.element_area[v];
     point.sample = mesh_.surfaces[side.surface].chart(shape.centre);
-    shoot(point, side, false, 1 / point.area);
+    shoot(point, side, 0, 1 / point.area);
     std::vector<double> per_patch(mesh_.patch_count, 0.0);
     takeReceived([&](std::uint32_t e, double f) { per_patch[mesh_.element_patch[e]] += f; });
     Row out;
@@ -228,20 +230,20 @@ class Hemicube final : public FormFactorMethod {
 
   // Shoots from the region or, where its view is too near for one point, from its parts. Adds share = area *
   // per_area in all.
-  void shoot(const Region& region, const Side& side, bool may_split, double per_area) {
+  void shoot(const Region& region, const Side& side, int splits, double per_area) {
     const bool emits = emitsMuch(region, side);
     const HemicubeLayout layout{emits ? emitter_resolution_ : resolution_};
     const std::vector<double>& delta = deltas(layout);
     const HemicubeView::Result seen = view_->look(frameOf(region, side), layout);
     ++drawn_;
-    if (may_split && std::sqrt(region.area) > 1.4 * floor_) {
+    if (splits > 0 && std::sqrt(region.area) > 1.4 * floor_) {
       const double limit =
           std::sqrt(region.area) / (emits ? kEmitterSplitFraction : kSplitFraction) / seen.far_distance;
       double near = 0;
       for (std::size_t k = 0; k < delta.size(); ++k)
         near += static_cast<double>(seen.distance[k]) < limit ? delta[k] : 0.0;
       if (near > kNearShare) {
-        for (const Region& part : partsOf(mesh_, region)) shoot(part, side, true, per_area);
+        for (const Region& part : partsOf(mesh_, region)) shoot(part, side, splits - 1, per_area);
         return;
       }
     }

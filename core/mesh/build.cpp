@@ -19,7 +19,7 @@ namespace {
 // room or less, below which smaller sources bring no accuracy, while a pass over all of them stays short.
 std::uint32_t patchCells(double elements) {
   std::uint32_t cells = 1;
-  while (cells < 16 && elements / (cells * cells) > 1000) cells *= 2;
+  while (cells < 8 && elements / (cells * cells) > 1000) cells *= 2;
   return cells;
 }
 
