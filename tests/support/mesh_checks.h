@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -100,41 +101,64 @@ inline void expectDisplayCovers(const Mesh& mesh) {
   }
 }
 
-/// No vertex of the display lies within an edge of a display triangle: else rounding would open a crack
-/// there. `margin` [m]: the distance below which points were made one.
+/// How often each edge of the display triangles is run through one way more than the other, by the places of
+/// its ends.
+using PlaceOfVertex = std::tuple<float, float, float>;
+using EdgeUses = std::map<std::pair<PlaceOfVertex, PlaceOfVertex>, int>;
+
+inline PlaceOfVertex placeOf(const Mesh& mesh, std::uint32_t vertex) {
+  const glm::vec3& p = mesh.vertices[vertex].position;
+  return {p.x, p.y, p.z};
+}
+
+/// Of the triangles that `counts` lets pass (given their element's side).
+template <class F>
+EdgeUses edgeUses(const Mesh& mesh, F&& counts) {
+  EdgeUses uses;
+  for (std::size_t k = 0; k < mesh.triangle_vertices.size(); ++k) {
+    if (!counts(mesh.sides[mesh.element_side[mesh.triangle_element[k / 3]]])) continue;
+    const std::size_t next = k % 3 == 2 ? k - 2 : k + 1;
+    const PlaceOfVertex a = placeOf(mesh, mesh.triangle_vertices[k]),
+                        b = placeOf(mesh, mesh.triangle_vertices[next]);
+    ++uses[{a, b}];
+    --uses[{b, a}];
+  }
+  return uses;
+}
+
+/// No vertex of the display lies within an edge where triangles end: else rounding would open a crack between
+/// what meets there. Side by side, since the two sides of a sheet end at the same edges. `margin` [m]: the
+/// distance below which points were made one.
 inline void expectNoVertexWithinAnEdge(const Mesh& mesh, double margin) {
   std::vector<glm::dvec3> points;
   for (const Vertex& v : mesh.vertices) points.emplace_back(v.position);
   const PointTree tree(points);
   std::size_t found = 0;
-  for (std::size_t k = 0; k < mesh.triangle_vertices.size(); ++k) {
-    const std::size_t next = k % 3 == 2 ? k - 2 : k + 1;
-    const glm::dvec3 a = points[mesh.triangle_vertices[k]], b = points[mesh.triangle_vertices[next]];
-    const double length = glm::distance(a, b);
-    tree.nearSegment(a, b, 0.5 * margin, [&](std::uint32_t v) {
-      const double along = glm::dot(points[v] - a, b - a) / length;
-      if (along > 3 * margin && along < length - 3 * margin) ++found;
-    });
+  for (std::size_t s = 0; s < mesh.sides.size(); ++s) {
+    for (const auto& [edge, count] :
+         edgeUses(mesh, [&](const Side& side) { return &side == &mesh.sides[s]; })) {
+      if (count == 0) continue;
+      const auto point = [](const PlaceOfVertex& p) {
+        return glm::dvec3(std::get<0>(p), std::get<1>(p), std::get<2>(p));
+      };
+      const glm::dvec3 a = point(edge.first), b = point(edge.second);
+      const double length = glm::distance(a, b);
+      tree.nearSegment(a, b, 0.5 * margin, [&](std::uint32_t v) {
+        const double along = glm::dot(points[v] - a, b - a) / length;
+        if (along > 3 * margin && along < length - 3 * margin) ++found;
+      });
+    }
   }
   EXPECT_EQ(found, 0u) << "vertices within edges of triangles";
 }
 
-/// In a scene whose lit sides close a room: every edge of a display triangle is run through as often one way
-/// as the other.
-inline void expectClosed(const Mesh& mesh) {
-  using Point = std::tuple<float, float, float>;
-  const auto key = [&](std::uint32_t v) {
-    const glm::vec3& p = mesh.vertices[v].position;
-    return Point{p.x, p.y, p.z};
-  };
-  std::map<std::pair<Point, Point>, int> uses;
-  for (std::size_t k = 0; k < mesh.triangle_vertices.size(); ++k) {
-    const std::size_t next = k % 3 == 2 ? k - 2 : k + 1;
-    const Point a = key(mesh.triangle_vertices[k]), b = key(mesh.triangle_vertices[next]);
-    ++uses[{a, b}];
-    --uses[{b, a}];
-  }
+/// In a scene whose sides that face inwards close a room: every edge of their triangles is run through as
+/// often one way as the other. `counts`: which sides those are.
+template <class F>
+void expectClosed(const Mesh& mesh, F&& counts) {
+  const EdgeUses uses = edgeUses(mesh, counts);
   const auto open = std::count_if(uses.begin(), uses.end(), [](const auto& use) { return use.second != 0; });
+  EXPECT_FALSE(uses.empty());
   EXPECT_EQ(open, 0) << "edges without a partner";
 }
 

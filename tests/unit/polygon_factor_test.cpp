@@ -167,7 +167,7 @@ TEST(PolygonFactor, HasTheMeansOfTheClosedFormsForPairsOfRectangles) {
   constexpr std::array<double, 4> kWeight = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                              0.1012285362903763};
   const auto mean = [&](auto&& f, double width, double depth) {
-    constexpr int kParts = 8;
+    constexpr int kParts = 16;
     double sum = 0;
     for (int cell = 0; cell < kParts * kParts; ++cell) {
       for (int k = 0; k < 64; ++k) {
