@@ -19,7 +19,8 @@ vec3 display(vec4 s) {
   if (s.a == 0.0) return background;
   vec3 exposed = min(s.rgb * exposure, vec3(1e4));
   vec3 c = tone_mapped ? toneMap(exposed) : min(exposed, 1.0);
-  if (s.a == 3.0) c = mix(c, luminance(c) > 0.25 ? vec3(0.0) : vec3(0.6), edge_strength);
+  // Edges darken what is light and lighten what is dark.
+  if (s.a == 3.0) c = mix(c, 0.25 * c + 0.04, edge_strength);
   return c;
 }
 

@@ -36,13 +36,13 @@ void printCheck(const Scene& scene, const Diagnostics& diagnostics, const std::v
                  {"area", figureText(figures.area) + " m^2 (one side)"},
                  {"closed", figures.closed() ? "yes: every edge joins an even number of polygons"
                                              : "not shown: " + countedText(figures.open_edges, "open edge")}};
-  for (const PlanDecision& decision : plan) lines.emplace_back("plan", planText(decision));
+  for (const PlanDecision& decision : plan) lines.emplace_back("left out", planText(decision));
   printLines(std::cout, lines);
   if (diagnostics.empty()) {
     std::cout << "\nNothing is wrong with this scene.\n";
     return;
   }
-  std::cout << "\n" << countedText(diagnostics.size(), "doubt") << ":\n";
+  std::cout << "\n" << countedText(diagnostics.size(), "remark") << ":\n";
   printDiagnostics(std::cout, diagnostics);
 }
 
@@ -60,14 +60,12 @@ int runCheck(const CheckRequest& request) {
 
 }  // namespace
 
-void addCheckCommand(CLI::App& app, Run& run) {
+void setUpCheck(Command& command) {
   auto request = std::make_shared<CheckRequest>();
-  CLI::App* command =
-      app.add_subcommand("check", "Say what is in a scene, what is wrong with it and what it does not need");
-  command->footer("Ends with 0 where the scene can be read, whatever doubts there are.");
-  addFileArgument(*command, "SCENE.obj", request->scene, "The scene: Wavefront OBJ with MTL");
-  command->add_flag("--json", request->json, "Print JSON");
-  command->callback([request, &run] { run = [request] { return runCheck(*request); }; });
+  command.footer("Ends with 0 where the scene can be read, whatever is remarked on.");
+  command.argument("SCENE.obj", request->scene, "The scene: Wavefront OBJ with MTL");
+  command.flag("--json", request->json, "Print JSON");
+  command.run = [request] { return runCheck(*request); };
 }
 
 }  // namespace unshot

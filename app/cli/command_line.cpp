@@ -1,10 +1,12 @@
 #include "cli/command_line.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -15,16 +17,18 @@
 namespace unshot {
 namespace {
 
-struct Command {
+struct CommandRow {
   std::string_view name;
-  void (*add)(CLI::App& app, Run& run);
+  std::string_view description;
+  void (*set_up)(Command& command);
 };
 
-constexpr std::array<Command, 5> kCommands = {{{"view", addViewCommand},
-                                               {"solve", addSolveCommand},
-                                               {"check", addCheckCommand},
-                                               {"compare", addCompareCommand},
-                                               {"list", addListCommand}}};
+constexpr std::array<CommandRow, 5> kCommands = {
+    {{"view", "Open the viewer (not part of this version yet)", setUpView},
+     {"solve", "Solve a scene without a window and write pictures, solutions, reports", setUpSolve},
+     {"check", "Say what is in a scene, what is wrong with it and what it does not need", setUpCheck},
+     {"compare", "Compare two pictures (PNG, HDR), solutions (PLY) or tables of probes (CSV)", setUpCompare},
+     {"list", "List every mode, method, display, exporter and provider, and what works here", setUpList}}};
 
 constexpr const char* kFooter =
     "unshot COMMAND --help says more. Without a command, the viewer opens.\n"
@@ -35,7 +39,8 @@ constexpr const char* kFooter =
 
 std::string commandNames() {
   std::string names;
-  for (const Command& command : kCommands) names += (names.empty() ? "" : ", ") + std::string(command.name);
+  for (const CommandRow& command : kCommands)
+    names += (names.empty() ? "" : ", ") + std::string(command.name);
   return names;
 }
 
@@ -110,7 +115,7 @@ std::string messageOf(const CLI::ParseError& error) {
 }  // namespace
 
 bool isCommand(std::string_view word) {
-  return std::any_of(kCommands.begin(), kCommands.end(), [&](const Command& c) { return c.name == word; });
+  return std::any_of(kCommands.begin(), kCommands.end(), [&](const CommandRow& c) { return c.name == word; });
 }
 
 int runCommandLine(int argc, const char* const* argv) {
@@ -122,10 +127,12 @@ int runCommandLine(int argc, const char* const* argv) {
   app.formatter(std::make_shared<HelpFormatter>());
   app.footer(kFooter);
   app.require_subcommand(1);
-  Run run;
-  for (const Command& command : kCommands) {
-    command.add(app, run);
-    app.get_subcommand(std::string(command.name))->group("Commands");
+  std::vector<std::pair<CLI::App*, std::unique_ptr<Command>>> commands;
+  for (const CommandRow& row : kCommands) {
+    CLI::App* parser =
+        app.add_subcommand(std::string(row.name), std::string(row.description))->group("Commands");
+    commands.emplace_back(parser, std::make_unique<Command>(*parser));
+    row.set_up(*commands.back().second);
   }
   try {
     // CLI11 takes the arguments from the end.
@@ -136,7 +143,9 @@ int runCommandLine(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     throw Error(ErrorKind::kUsage, messageOf(error), {}, adviceOf(arguments));
   }
-  const int code = run();
+  const auto chosen =
+      std::find_if(commands.begin(), commands.end(), [](const auto& c) { return c.first->parsed(); });
+  const int code = chosen->second->run();
   std::cout.flush();
   if (!std::cout)
     throw Error(ErrorKind::kEnvironment, "standard output cannot be written", {}, "check where it leads");

@@ -1,18 +1,15 @@
-// The sub-commands: each adds its options to a parser and leaves in `run` what is to be done.
+// The sub-commands, one file each: what they take, and what they do.
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <functional>
+#include "cli/options.h"
 
 namespace unshot {
 
-/// What a parsed sub-command does; returns the exit code.
-using Run = std::function<int()>;
-
-void addViewCommand(CLI::App& app, Run& run);
-void addSolveCommand(CLI::App& app, Run& run);
-void addCheckCommand(CLI::App& app, Run& run);
-void addCompareCommand(CLI::App& app, Run& run);
-void addListCommand(CLI::App& app, Run& run);
+/// Each adds its options to `command` and sets command.run.
+void setUpView(Command& command);
+void setUpSolve(Command& command);
+void setUpCheck(Command& command);
+void setUpCompare(Command& command);
+void setUpList(Command& command);
 
 }  // namespace unshot

@@ -6,7 +6,6 @@
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/compare_files.h"
-#include "cli/options.h"
 #include "cli/text.h"
 #include "exit_codes.h"
 #include "export/atomic_file.h"
@@ -70,23 +69,19 @@ int runCompare(const CompareRequest& request) {
 
 }  // namespace
 
-void addCompareCommand(CLI::App& app, Run& run) {
+void setUpCompare(Command& command) {
   auto request = std::make_shared<CompareRequest>();
-  CLI::App* command = app.add_subcommand(
-      "compare", "Compare two pictures (PNG, HDR), solutions (PLY) or tables of probes (CSV)");
-  command->footer(
+  command.footer(
       "Values are compared as linear light; nRMSE is RMS(A - B) / RMS(B) over points and channels.\n"
       "Pictures must have the same size, PLY files the same vertices, tables the same points in\n"
       "the same order. Where a table has columns E_r, E_g, E_b, only points with E = 0 count.\n"
       "Ends with 6 where the nRMSE is above --tolerance.");
-  addFileArgument(*command, "A", request->a, "The file to judge");
-  addFileArgument(*command, "B", request->b, "The reference");
-  addOption(*command, "--tolerance", request->tolerance, "X",
-            "Largest nRMSE allowed, as a fraction: 0.05 is 5 %",
-            numberWithin(0, std::numeric_limits<double>::max()));
-  addOption(*command, "--out", request->out, "F.png", "Write a heat map of |A - B| (pictures only)",
-            fileName());
-  command->callback([request, &run] { run = [request] { return runCompare(*request); }; });
+  command.argument("A", request->a, "The file to judge");
+  command.argument("B", request->b, "The reference");
+  command.add("--tolerance", request->tolerance, "X", "Largest nRMSE allowed, as a fraction: 0.05 is 5 %",
+              numberWithin(0, std::numeric_limits<double>::max()));
+  command.add("--out", request->out, "F.png", "Write a heat map of |A - B| (pictures only)", fileName());
+  command.run = [request] { return runCompare(*request); };
 }
 
 }  // namespace unshot

@@ -51,10 +51,6 @@ int runList() {
 
 }  // namespace
 
-void addListCommand(CLI::App& app, Run& run) {
-  CLI::App* command = app.add_subcommand(
-      "list", "List every mode, method, display, exporter and provider, and what works here");
-  command->callback([&run] { run = [] { return runList(); }; });
-}
+void setUpList(Command& command) { command.run = runList; }
 
 }  // namespace unshot

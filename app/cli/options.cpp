@@ -1,8 +1,8 @@
 #include "cli/options.h"
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
-#include <optional>
 
 #include "base/parse.h"
 #include "cli/text.h"
@@ -60,14 +60,17 @@ Check vectorText() {
   };
 }
 
-Check sizeText() {
-  return [](const std::string& text) -> std::string {
+Check sizeText(int largest) {
+  return [=](const std::string& text) -> std::string {
     const std::vector<std::string_view> parts = splitParts(text, 'x');
     if (parts.size() != 2) return quoted(text) + " is not WIDTHxHEIGHT, such as 800x600";
     for (const std::string_view part : parts) {
       const std::optional<std::uint64_t> value = parseWhole(part);
       if (!value) return quoted(text) + " is not WIDTHxHEIGHT, such as 800x600";
-      if (*value < 1 || *value > 16384) return quoted(text) + " is not from 1x1 to 16384x16384";
+      if (*value < 1 || *value > static_cast<std::uint64_t>(largest)) {
+        const std::string limit = std::to_string(largest);
+        return quoted(text) + " is not from 1x1 to " + limit + "x" + limit;
+      }
     }
     return {};
   };
@@ -82,9 +85,68 @@ Check fileName() {
   };
 }
 
-CLI::Option* addFileArgument(CLI::App& app, const std::string& name, std::string& value,
-                             const std::string& help) {
-  return app.add_option(name, value, help)->option_text(" ")->check(fileName())->required();
+void Command::footer(const std::string& text) { app_.footer(text); }
+
+void Command::argument(const std::string& name, std::string& value, const std::string& help, bool required) {
+  app_.add_option(name, value, help)->option_text(" ")->check(fileName())->required(required);
+}
+
+void Command::addText(const std::string& name, const std::function<void(const std::string&)>& assign,
+                      const std::string& placeholder, const std::string& help, const Check& check) {
+  app_.add_option_function<std::string>(name, assign, help)
+      ->option_text(placeholder)
+      ->check(check)
+      ->group(group_);
+}
+
+void Command::add(const std::string& name, std::string& value, const std::string& placeholder,
+                  const std::string& help, const Check& check) {
+  addText(
+      name, [&value](const std::string& text) { value = text; }, placeholder, help, check);
+}
+
+void Command::add(const std::string& name, double& value, const std::string& placeholder,
+                  const std::string& help, const Check& check) {
+  addText(
+      name, [&value](const std::string& text) { value = *parseNumber(text); }, placeholder, help, check);
+}
+
+void Command::add(const std::string& name, std::optional<double>& value, const std::string& placeholder,
+                  const std::string& help, const Check& check) {
+  addText(
+      name, [&value](const std::string& text) { value = parseNumber(text); }, placeholder, help, check);
+}
+
+void Command::add(const std::string& name, std::uint32_t& value, const std::string& placeholder,
+                  const std::string& help, const Check& check) {
+  const auto assign = [&value](const std::string& text) {
+    value = static_cast<std::uint32_t>(*parseWhole(text));
+  };
+  addText(name, assign, placeholder, help, check);
+}
+
+void Command::add(const std::string& name, std::uint64_t& value, const std::string& placeholder,
+                  const std::string& help, const Check& check) {
+  addText(
+      name, [&value](const std::string& text) { value = *parseWhole(text); }, placeholder, help, check);
+}
+
+void Command::add(const std::string& name, std::optional<std::uint64_t>& value,
+                  const std::string& placeholder, const std::string& help, const Check& check) {
+  addText(
+      name, [&value](const std::string& text) { value = parseWhole(text); }, placeholder, help, check);
+}
+
+void Command::flag(const std::string& name, bool& value, const std::string& help) {
+  app_.add_flag(name, value, help)->group(group_);
+}
+
+void Command::exclude(const std::string& one, const std::string& other) {
+  app_.get_option(one)->excludes(app_.get_option(other));
+}
+
+void Command::need(const std::string& one, const std::string& other) {
+  app_.get_option(one)->needs(app_.get_option(other));
 }
 
 }  // namespace unshot

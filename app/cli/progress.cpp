@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <iostream>
 #include <string_view>
@@ -33,6 +34,13 @@ std::string barOf(double done) {
   constexpr std::size_t kCells = 24;
   const auto full = static_cast<std::size_t>(std::clamp(done, 0.0, 1.0) * kCells);
   return "[" + std::string(full, '#') + std::string(kCells - full, '.') + "] ";
+}
+
+/// A time that is read while it runs: "0.8 s", "12 s", "3 min 20 s".
+std::string runningTime(double seconds) {
+  const double step = seconds < 9.95 ? 0.1 : 1;
+  const double rounded = step * std::round(seconds / step);
+  return rounded < 99.5 ? figureText(rounded) + " s" : durationText(rounded);
 }
 
 }  // namespace
@@ -67,11 +75,11 @@ void Progress::finish() {
 
 std::string Progress::lineOf(const ProgressFigures& figures) const {
   std::string line = "unshot " + percentText(figures.unshot_fraction) + ", " +
-                     countedText(figures.shots, "shot") + ", " + durationText(figures.seconds);
+                     countedText(figures.shots, "shot") + ", " + runningTime(figures.seconds);
   if (figures.done <= 0) return line;
   double left = figures.seconds * (1 - figures.done) / figures.done;
   if (max_seconds_ > 0) left = std::min(left, std::max(0.0, max_seconds_ - figures.seconds));
-  return line + ", about " + durationText(left) + " left";
+  return line + ", about " + runningTime(left) + " left";
 }
 
 void Progress::draw(const std::string& line) {

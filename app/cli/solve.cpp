@@ -133,16 +133,14 @@ int runSolve(const SolveRequest& request) {
 
 }  // namespace
 
-void addSolveCommand(CLI::App& app, Run& run) {
-  CLI::App* command =
-      app.add_subcommand("solve", "Solve a scene without a window and write pictures, solutions, reports");
-  command->footer(
+void setUpSolve(Command& command) {
+  command.footer(
       "Lengths are in the scene's unit, taken as metres. Ctrl-C stops between two steps and writes what\n"
       "was reached; a second one ends the program at once.\n"
       "\n"
       "Example: unshot solve scene.obj --elements 20000 --png picture.png --report figures.json");
-  auto arguments = std::make_shared<SolveArguments>(*command);
-  command->callback([arguments, &run] { run = [arguments] { return runSolve(arguments->request()); }; });
+  auto arguments = std::make_shared<SolveArguments>(command);
+  command.run = [arguments] { return runSolve(arguments->request()); };
 }
 
 }  // namespace unshot

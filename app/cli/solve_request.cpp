@@ -8,6 +8,7 @@
 #include "export/atomic_file.h"
 #include "formfactor/methods.h"
 #include "gl/context.h"
+#include "mesh/build.h"
 #include "render/display_modes.h"
 #include "solver/modes.h"
 
@@ -46,8 +47,8 @@ bool SolveRequest::needsPicture() const {
                      [](const Output& o) { return o.exporter->needs != PictureNeed::kNoPicture; });
 }
 
-SolveArguments::SolveArguments(CLI::App& command) : outputs_(exporters().size()) {
-  addFileArgument(command, "SCENE.obj", scene_, "The scene: Wavefront OBJ with MTL");
+SolveArguments::SolveArguments(Command& command) : outputs_(exporters().size()) {
+  command.argument("SCENE.obj", scene_, "The scene: Wavefront OBJ with MTL");
   addSolver(command);
   addMesh(command);
   addLimits(command);
@@ -55,99 +56,75 @@ SolveArguments::SolveArguments(CLI::App& command) : outputs_(exporters().size())
   addPicture(command);
 }
 
-void SolveArguments::addSolver(CLI::App& command) {
-  const std::string group = "How to solve";
+void SolveArguments::addSolver(Command& command) {
+  command.group("How to solve");
   const auto modes = iterationModes();
   const auto methods = formFactorMethods();
-  addOption(command, "--mode", options_.mode, "M", "Iteration: " + keysOf(modes, true) + " (default auto)",
-            keyOf(modes, true))
-      ->group(group);
-  addOption(command, "--form-factors", options_.form_factors, "F",
-            "Form factors: " + keysOf(methods, true) + " (default auto)", keyOf(methods, true))
-      ->group(group);
-  addOption(command, "--hemicube", options_.hemicube_resolution, "N",
-            "Pixels along an edge of the hemicube, even, 16 to 4096 (default: chosen)",
-            wholeNumber(16, 4096, true))
-      ->group(group);
-  addOption(command, "--emit", emit_, "both|front", "Sides on which light sources emit (default both)",
-            emitText())
-      ->group(group);
-  addOption(command, "--keep", kept_mb_, "MB", "Memory for form factors that are kept [MB] (default 1074)",
-            wholeNumber(0, 1'000'000))
-      ->group(group);
-  addOption(command, "--seed", options_.seed, "N", "Start of the random numbers (default 1)", wholeNumber(0))
-      ->group(group);
-  addOption(command, "--gl", gl_, "P",
-            "Provider of OpenGL: " + keysOf(gl::providers(), true) + " (default auto)",
-            keyOf(gl::providers(), true))
-      ->group(group);
-  addOption(command, "--shader-dir", shader_dir_, "DIR", "Take shaders from this folder where it has them",
-            fileName())
-      ->group(group);
+  command.add("--mode", options_.mode, "M", "Iteration: " + keysOf(modes, true) + " (default auto)",
+              keyOf(modes, true));
+  command.add("--form-factors", options_.form_factors, "F",
+              "Form factors: " + keysOf(methods, true) + " (default auto)", keyOf(methods, true));
+  command.add("--hemicube", options_.hemicube_resolution, "N",
+              "Pixels along an edge of the hemicube, even, 16 to 4096 (default: chosen)",
+              wholeNumber(16, 4096, true));
+  command.add("--emit", emit_, "both|front", "Sides on which light sources emit (default both)", emitText());
+  command.add("--keep", kept_mb_, "MB", "Memory for form factors that are kept [MB] (default 1074)",
+              wholeNumber(0, 1'000'000));
+  command.add("--seed", options_.seed, "N", "Start of the random numbers (default 1)", wholeNumber(0));
+  command.add("--gl", gl_, "P", "Provider of OpenGL: " + keysOf(gl::providers(), true) + " (default auto)",
+              keyOf(gl::providers(), true));
+  command.add("--shader-dir", shader_dir_, "DIR", "Take shaders from this folder where it has them",
+              fileName());
 }
 
-void SolveArguments::addMesh(CLI::App& command) {
-  const std::string group = "Mesh";
-  CLI::Option* count =
-      addOption(command, "--elements", options_.elements, "N",
-                "Elements over all lit sides, within 10 % (default 10000)", wholeNumber(1, 20'000'000));
-  CLI::Option* size = addOption(command, "--element-size", options_.element_size, "S",
-                                "Edge of an element [m]", positiveNumber());
-  count->group(group)->excludes(size);
-  size->group(group);
+void SolveArguments::addMesh(Command& command) {
+  command.group("Mesh");
+  command.add("--elements", options_.elements, "N",
+              "Elements over all lit sides, within 10 % (default 10000)", wholeNumber(1, kMostElements));
+  command.add("--element-size", options_.element_size, "S", "Edge of an element [m]", positiveNumber());
+  command.exclude("--elements", "--element-size");
 }
 
-void SolveArguments::addLimits(CLI::App& command) {
-  const std::string group = "When to stop";
-  addOption(command, "--error", options_.error, "X",
-            "Stop when this fraction of the power is unshot (default 0.01)", numberWithin(0, 1, {}, true))
-      ->group(group);
-  addOption(command, "--max-seconds", options_.max_seconds, "T",
-            "Stop after this time [s] and write the result", positiveNumber())
-      ->group(group);
-  addOption(command, "--max-shots", options_.max_shots, "N", "Stop after so many shots and write the result",
-            wholeNumber(1))
-      ->group(group);
+void SolveArguments::addLimits(Command& command) {
+  command.group("When to stop");
+  command.add("--error", options_.error, "X", "Stop when this fraction of the power is unshot (default 0.01)",
+              numberWithin(0, 1, {}, true));
+  command.add("--max-seconds", options_.max_seconds, "T", "Stop after this time [s] and write the result",
+              positiveNumber());
+  command.add("--max-shots", options_.max_shots, "N", "Stop after so many shots and write the result",
+              wholeNumber(1));
 }
 
-void SolveArguments::addOutputs(CLI::App& command) {
-  const std::string group = "What to write";
+void SolveArguments::addOutputs(Command& command) {
+  command.group("What to write");
   for (std::size_t k = 0; k < outputs_.size(); ++k) {
     const Exporter& exporter = exporters()[k];
-    addOption(command, "--" + std::string(exporter.info.key), outputs_[k], "F" + std::string(exporter.ending),
-              std::string(exporter.info.title) + ": " + std::string(exporter.info.help), fileName())
-        ->group(group);
+    command.add("--" + std::string(exporter.info.key), outputs_[k], "F" + std::string(exporter.ending),
+                std::string(exporter.info.title) + ": " + std::string(exporter.info.help), fileName());
   }
-  CLI::Option* probe = addOption(command, "--probe", probe_, "POINTS.csv",
-                                 "Points to probe: lines x,y,z,nx,ny,nz in file coordinates", fileName());
-  probe->group(group)->needs(command.get_option("--probe-out"));
-  command.get_option("--probe-out")->needs(probe);
+  command.add("--probe", probe_, "POINTS.csv", "Points to probe: lines x,y,z,nx,ny,nz in file coordinates",
+              fileName());
+  command.need("--probe", "--probe-out");
+  command.need("--probe-out", "--probe");
 }
 
-void SolveArguments::addPicture(CLI::App& command) {
-  const std::string group = "The picture";
-  addOption(command, "--size", size_, "WxH", "Size in pixels (default 1280x960)", sizeText())->group(group);
-  addOption(command, "--eye", eye_, "x,y,z", "Where the viewer stands, in file coordinates (default: chosen)",
-            vectorText())
-      ->group(group);
-  addOption(command, "--at", at_, "x,y,z", "What the viewer looks at, in file coordinates (default: chosen)",
-            vectorText())
-      ->group(group);
-  addOption(command, "--up", up_, "x,y,z", "What is upwards (default 0,1,0)", vectorText())->group(group);
-  addOption(command, "--fov", picture_.fov_deg, "D",
-            "Vertical angle of view, 1 to 170 degrees (default: chosen)", numberWithin(1, 170, "degrees"))
-      ->group(group);
-  addOption(command, "--display", picture_.display, "MODE",
-            "What is shown: " + keysOf(displayModes(), false) + " (default radiosity)",
-            keyOf(displayModes(), false))
-      ->group(group);
-  addOption(command, "--exposure", picture_.exposure_ev, "EV",
-            "Stops brighter than the automatic exposure (default 0)", numberWithin(-100, 100, "stops"))
-      ->group(group);
-  command
-      .add_flag("--ambient", picture_.ambient,
-                "Add an estimate of the light still unshot to all that is written")
-      ->group(group);
+void SolveArguments::addPicture(Command& command) {
+  command.group("The picture");
+  command.add("--size", size_, "WxH", "Size in pixels (default 1280x960)", sizeText(kLargestPicture));
+  command.add("--eye", eye_, "x,y,z", "Where the viewer stands, in file coordinates (default: chosen)",
+              vectorText());
+  command.add("--at", at_, "x,y,z", "What the viewer looks at, in file coordinates (default: chosen)",
+              vectorText());
+  command.add("--up", up_, "x,y,z", "What is upwards (default 0,1,0)", vectorText());
+  command.add("--fov", picture_.fov_deg, "D", "Vertical angle of view, 1 to 170 degrees (default: chosen)",
+              numberWithin(1, 170, "degrees"));
+  command.add("--display", picture_.display, "MODE",
+              "What is shown: " + keysOf(displayModes(), false) + " (default radiosity)",
+              keyOf(displayModes(), false));
+  command.add("--exposure", picture_.exposure_ev, "EV",
+              "Stops brighter than the automatic exposure (default 0)", numberWithin(-100, 100, "stops"));
+  command.flag("--ambient", picture_.ambient,
+               "Add an estimate of the light still unshot to all that is written");
 }
 
 SolveRequest SolveArguments::request() const {

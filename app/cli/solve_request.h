@@ -31,19 +31,19 @@ struct SolveRequest {
   bool needsPicture() const;
 };
 
-/// The options of `unshot solve` while they are parsed: text that CLI11 fills in.
+/// The options of `unshot solve` as they are parsed.
 class SolveArguments {
  public:
-  explicit SolveArguments(CLI::App& command);
+  explicit SolveArguments(Command& command);
   /// Checks what can be checked without reading anything. Throws Error (kUsage).
   SolveRequest request() const;
 
  private:
-  void addSolver(CLI::App& command);
-  void addMesh(CLI::App& command);
-  void addLimits(CLI::App& command);
-  void addPicture(CLI::App& command);
-  void addOutputs(CLI::App& command);
+  void addSolver(Command& command);
+  void addMesh(Command& command);
+  void addLimits(Command& command);
+  void addPicture(Command& command);
+  void addOutputs(Command& command);
 
   SolveOptions options_;
   std::string scene_, gl_ = "auto", shader_dir_, probe_, emit_ = "both";

@@ -46,7 +46,7 @@ void printSummary(std::ostream& out, const RunRecord& record, const SolveOptions
                      memoryText(static_cast<double>(record.kept_bytes)) + " of it kept form factors"},
       {"stopped by", stopText(record, options)},
   };
-  for (const PlanDecision& decision : record.plan) lines.emplace_back("plan", planText(decision));
+  for (const PlanDecision& decision : record.plan) lines.emplace_back("left out", planText(decision));
   for (const std::string& file : written) lines.emplace_back("written", file);
   printLines(out, lines);
 }

@@ -70,7 +70,8 @@ class BoxTree {
     const std::uint32_t half = count / 2;
     std::nth_element(order_.begin() + first, order_.begin() + first + half, order_.begin() + first + count,
                      [&](std::uint32_t i, std::uint32_t j) {
-                       return boxes_[i].low[axis] + boxes_[i].high[axis] < boxes_[j].low[axis] + boxes_[j].high[axis];
+                       return boxes_[i].low[axis] + boxes_[i].high[axis] <
+                              boxes_[j].low[axis] + boxes_[j].high[axis];
                      });
     build(first, half);
     const std::uint32_t right = build(first + half, count - half);

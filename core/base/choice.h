@@ -1,5 +1,5 @@
-// Tables of choices: iteration modes, form-factor methods, display modes, exporters, GL providers. A choice is one file
-// and one row; command line, `unshot list`, GUI and parametrised tests read the table.
+// Tables of choices: iteration modes, form-factor methods, display modes, exporters, GL providers. A choice
+// is one file and one row; command line, `unshot list`, GUI and parametrised tests read the table.
 #pragma once
 
 #include <span>

@@ -8,8 +8,8 @@ namespace unshot {
 
 enum class Severity { kNote, kWarning };
 
-/// One doubt: a short stable code ("duplicate-face"), what was found (with its count), where (file:line), what was done
-/// about it or what to try.
+/// One doubt: a short stable code ("duplicate-face"), what was found (with its count), where (file:line),
+/// what was done about it or what to try.
 struct Diagnostic {
   Severity severity = Severity::kWarning;
   std::string code;

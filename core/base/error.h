@@ -9,8 +9,8 @@ namespace unshot {
 /// What went wrong; decides the exit code (design: 0 done, 1 internal, 2 usage, 3 input, 4 environment).
 enum class ErrorKind { kInternal, kUsage, kInput, kEnvironment };
 
-/// Thrown for bad input or environment. `what` is the message; `where` names file or file:line (may be empty);
-/// `advice` says what to try (may be empty).
+/// Thrown for bad input or environment. `what` is the message; `where` names file or file:line (may be
+/// empty); `advice` says what to try (may be empty).
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& message, std::string where = {}, std::string advice = {})

@@ -11,7 +11,8 @@ namespace {
 constexpr std::uint32_t kLeafSize = 8;
 
 // Whether the segment meets the box (slab test over t in [0, 1]).
-bool segmentMeetsBox(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& low, const glm::dvec3& high) {
+bool segmentMeetsBox(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& low,
+                     const glm::dvec3& high) {
   double t0 = 0, t1 = 1;
   for (int k = 0; k < 3; ++k) {
     const double d = b[k] - a[k];

@@ -1,4 +1,5 @@
-// A balanced tree of bounding boxes over points: which points lie near a segment, whether any lies in front of a plane.
+// A balanced tree of bounding boxes over points: which points lie near a segment, whether any lies in front
+// of a plane.
 #pragma once
 
 #include <cstdint>

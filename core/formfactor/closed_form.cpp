@@ -1,8 +1,9 @@
 // Closed-form factors: K_vq is the exact Lambert factor of receiver point v and patch q, without occlusion.
 //
-// In a convex enclosure rows then sum to 1 to rounding wherever the receiver stands. Assumes that nothing lies between
-// (methods.h says how that is decided); known error: none in K but rounding, so what is left of a solution's error comes from
-// the patches' constant radiosity and the trapezoidal mean over a patch's vertices.
+// In a convex enclosure rows then sum to 1 to rounding wherever the receiver stands. Assumes that nothing
+// lies between (methods.h says how that is decided); known error: none in K but rounding, so what is left of
+// a solution's error comes from the patches' constant radiosity and the trapezoidal mean over a patch's
+// vertices.
 #include <algorithm>
 #include <glm/geometric.hpp>
 
@@ -31,8 +32,8 @@ class ClosedForm final : public FormFactorMethod {
       out.k[v] = static_cast<float>(factor(v, q));
       received += static_cast<double>(out.k[v]) * receivers_.area[v];
     }
-    // What leaves is found by gathering back along the rows of the patch's own receivers, so that the error of the mean over
-    // vertices shows as the column's defect and not as light that escapes.
+    // What leaves is found by gathering back along the rows of the patch's own receivers, so that the error
+    // of the mean over vertices shows as the column's defect and not as light that escapes.
     out.escape = escapeOf(q);
     out.defect = 1 - out.escape - received / mesh_.patch_area[q];
     return out;
@@ -67,9 +68,10 @@ class ClosedForm final : public FormFactorMethod {
       polygons_[q].push_back(std::move(ring));
     };
     const double rectangle = size.x * size.y;
-    if (std::abs(region.area - rectangle) <= 1e-9 * rectangle && std::abs(mesh_.patch_area[q] - rectangle) <= 1e-9 * rectangle) {
-      add({surface.point(region.low), surface.point({region.high.x, region.low.y}), surface.point(region.high),
-           surface.point({region.low.x, region.high.y})});
+    if (std::abs(region.area - rectangle) <= 1e-9 * rectangle &&
+        std::abs(mesh_.patch_area[q] - rectangle) <= 1e-9 * rectangle) {
+      add({surface.point(region.low), surface.point({region.high.x, region.low.y}),
+           surface.point(region.high), surface.point({region.low.x, region.high.y})});
       return;
     }
     for (std::uint32_t c = surface.first_cell; c < surface.first_cell + surface.nu * surface.nv; ++c) {
@@ -78,7 +80,8 @@ class ClosedForm final : public FormFactorMethod {
         if (mesh_.shapes[surface.elements.first + mesh_.pieces[p].element].patch != local) continue;
         Ring ring;
         const Range corners = mesh_.pieces[p].corners;
-        for (std::uint32_t k = corners.first; k < corners.end(); ++k) ring.push_back(surface.point(mesh_.piece_corners[k].uv));
+        for (std::uint32_t k = corners.first; k < corners.end(); ++k)
+          ring.push_back(surface.point(mesh_.piece_corners[k].uv));
         add(std::move(ring));
       }
     }
@@ -90,7 +93,8 @@ class ClosedForm final : public FormFactorMethod {
     if (side.surface == mesh_.sides[mesh_.vertices[v].side].surface) return 0;
     if (glm::dot(side.normal, point - mesh_.surfaces[side.surface].origin) <= 0) return 0;
     double sum = 0;
-    for (const Ring& ring : polygons_[q]) sum += pointToPolygonFactor(point, receivers_.normal[v], ring, scratch_);
+    for (const Ring& ring : polygons_[q])
+      sum += pointToPolygonFactor(point, receivers_.normal[v], ring, scratch_);
     return std::max(sum, 0.0);
   }
 
@@ -113,7 +117,8 @@ class ClosedForm final : public FormFactorMethod {
 
   void groupShares() {
     by_patch_ = receivers_.shares;
-    std::stable_sort(by_patch_.begin(), by_patch_.end(), [](const auto& a, const auto& b) { return a.patch < b.patch; });
+    std::stable_sort(by_patch_.begin(), by_patch_.end(),
+                     [](const auto& a, const auto& b) { return a.patch < b.patch; });
     share_start_.assign(mesh_.patch_count + 1, 0);
     for (const PatchShare& s : by_patch_) ++share_start_[s.patch + 1];
     for (std::uint32_t q = 0; q < mesh_.patch_count; ++q) share_start_[q + 1] += share_start_[q];

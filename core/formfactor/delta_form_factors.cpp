@@ -12,7 +12,8 @@ double topCorner(double x, double y) {
   return (x / p * std::atan(y / p) + y / q * std::atan(x / q)) / (2 * std::numbers::pi);
 }
 
-// Integral of z / (pi (1 + y^2 + z^2)^2), the side face at distance 1, up to terms that cancel in differences.
+// Integral of z / (pi (1 + y^2 + z^2)^2), the side face at distance 1, up to terms that cancel in
+// differences.
 double sideCorner(double y, double z) {
   const double p = std::sqrt(1 + z * z);
   return -std::atan(y / p) / (2 * std::numbers::pi * p);

@@ -1,14 +1,14 @@
 // The hemicube method, pixels counted: F from a patch to every element at once (Cohen and Greenberg 1985).
 //
-// A picture is taken from one point, as if all of the patch's light left there. Its error grows with the patch's size over
-// the distance to what it sees, so a patch is split, node by node of its tree and below, while a stated share of its view is
-// nearer than a stated multiple of its size, down to a floor: next to an edge that two surfaces share no refinement of a
-// single sample helps. Emitters are split further, while a part holds a fair share of all emitted power, since everything sees
-// the edges of its shadow. Each picture is turned about the
-// normal by its own angle, so that the pixels' grid leaves no pattern.
+// A picture is taken from one point, as if all of the patch's light left there. Its error grows with the
+// patch's size over the distance to what it sees, so a patch is split, node by node of its tree and below,
+// while a stated share of its view is nearer than a stated multiple of its size, down to a floor: next to an
+// edge that two surfaces share no refinement of a single sample helps. Emitters are split further, while a
+// part holds a fair share of all emitted power, since everything sees the edges of its shadow. Each picture
+// is turned about the normal by its own angle, so that the pixels' grid leaves no pattern.
 //
-// Known error: an element smaller than a pixel gets nothing from one picture and too much from another; what is left next to
-// shared edges is a few percent at the floor (tests/analytic says how much).
+// Known error: an element smaller than a pixel gets nothing from one picture and too much from another; what
+// is left next to shared edges is a few percent at the floor (tests/analytic says how much).
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -17,6 +17,7 @@
 
 #include "base/random.h"
 #include "formfactor/hemicube_picture.h"
+#include "formfactor/hemicube_rays.h"
 #include "formfactor/methods.h"
 #include "formfactor/regions.h"
 #include "mesh/grid.h"
@@ -25,22 +26,25 @@ namespace unshot {
 namespace {
 
 // A region is split while more than kNearShare of its view is nearer than its size / fraction.
-constexpr double kNearShare = 0.02;
-constexpr double kSplitFraction = 0.5;
+constexpr double kNearShare = 0.05;
+constexpr double kSplitFraction = 0.75;
 constexpr double kEmitterSplitFraction = 0.125;
-// A region with more than this share of the power that a channel emits counts as an emitter here: there are at most a few
-// hundred such regions, whatever the scene.
-constexpr double kEmitterShare = 1.0 / 256;
-// The floor: parts are not smaller than about half an element, or than this share of the scene's size where elements are
-// coarse. Small patches of a fine scene are not split at all.
+// A region with more than this share of the power that a channel emits counts as an emitter here: there are
+// at most a few hundred such regions, whatever the scene.
+constexpr double kEmitterShare = 1.0 / 64;
+// The floor: parts are not smaller than about half an element, or than this share of the scene's size where
+// elements are coarse. Small patches of a fine scene are not split at all.
 constexpr double kFloorShare = 1.0 / 32;
-// Pixels along the top face. A converged solution rests on thousands of pictures, each turned by its own angle, so 64 give
-// the same error as 128 on the Cornell box (1.3 % at 10,000 elements) in half the time. Where the scene has so many triangles
-// that they set the cost, pixels are free.
+// However coarse a patch is, its column takes no more than a few hundred pictures: steps stay short.
+constexpr int kMostSplits = 4;
+// Pixels along the top face. A converged solution rests on thousands of pictures, each turned by its own
+// angle, so 64 give the same error as 128 on the Cornell box (1.3 % at 10,000 elements) in half the time. The
+// few that show the emitters' shadows are finer.
 constexpr std::uint32_t kResolution = 64;
-constexpr std::uint32_t kManyTrianglesResolution = 128;
-constexpr std::size_t kManyTriangles = 5000;
 constexpr std::uint32_t kEmitterResolution = 256;
+constexpr std::uint32_t kTracedEmitterResolution = 128;  // a ray costs more than a drawn pixel
+// Where OpenGL runs in software, this many triangles are drawn slower than rays are traced.
+constexpr std::size_t kManyTriangles = 5000;
 
 // What the pixel loop needs of a surface, together in memory.
 struct SurfaceLookup {
@@ -50,12 +54,10 @@ struct SurfaceLookup {
 
 class Hemicube final : public FormFactorMethod {
  public:
-  Hemicube(const FormFactorSetup& setup)
-      : mesh_(*setup.mesh), picture_(setup.gl(), mesh_), seed_(setup.seed) {
+  Hemicube(const FormFactorSetup& setup) : mesh_(*setup.mesh), seed_(setup.seed) {
+    chooseView(setup);
     floor_ = std::min(mesh_.element_size / 2, kFloorShare * glm::length(mesh_.bounds_max - mesh_.bounds_min));
-    const bool many = mesh_.triangles.size() > kManyTriangles;
-    resolution_ = many ? kManyTrianglesResolution : kResolution;
-    emitter_resolution_ = kEmitterResolution;
+    resolution_ = kResolution;
     if (setup.hemicube_resolution != 0) resolution_ = emitter_resolution_ = setup.hemicube_resolution;
     for (const Surface& s : mesh_.surfaces) {
       SurfaceLookup lookup{s.nu, s.nv, s.first_cell, {kNone, kNone}};
@@ -73,13 +75,14 @@ class Hemicube final : public FormFactorMethod {
 
   ReceiverKind receiverKind() const override { return ReceiverKind::kElements; }
   std::uint64_t drawn() const override { return drawn_; }
+  std::string note() const override { return note_; }
 
   Column column(std::uint32_t q) override {
     const std::uint32_t side_index = mesh_.patch_side[q];
     const Side& side = mesh_.sides[side_index];
     begin();
     const Region whole = regionOfPatch(mesh_, side.surface, q - side.first_patch);
-    shoot(whole, side, true, 1 / whole.area);
+    shoot(whole, side, kMostSplits, 1 / whole.area);
     Column out;
     takeReceived([&](std::uint32_t e, double f) {
       out.receiver.push_back(e);
@@ -93,12 +96,13 @@ class Hemicube final : public FormFactorMethod {
   Row row(std::uint32_t v) override {
     const Side& side = mesh_.sides[mesh_.element_side[v]];
     begin();
-    const ElementShape& shape = mesh_.shapes[mesh_.surfaces[side.surface].elements.first + v - side.first_element];
+    const ElementShape& shape =
+        mesh_.shapes[mesh_.surfaces[side.surface].elements.first + v - side.first_element];
     Region point;
     point.surface = side.surface;
     point.area = mesh_.element_area[v];
     point.sample = mesh_.surfaces[side.surface].chart(shape.centre);
-    shoot(point, side, false, 1 / point.area);
+    shoot(point, side, 0, 1 / point.area);
     std::vector<double> per_patch(mesh_.patch_count, 0.0);
     takeReceived([&](std::uint32_t e, double f) { per_patch[mesh_.element_patch[e]] += f; });
     Row out;
@@ -114,8 +118,28 @@ class Hemicube final : public FormFactorMethod {
   }
 
  private:
-  // Cells without area border on the outline; rounding can put a pixel there, which then belongs to the nearest cell that
-  // has an element. Cells cut by contacts hold several elements; their pixels ask the pieces.
+  // OpenGL draws, but where a software rasteriser would have to chew through thousands of triangles a
+  // picture: its cost grows with all of them (36 ms at 210,000), a ray's with their logarithm (1 to 3 ms).
+  void chooseView(const FormFactorSetup& setup) {
+    HemicubeDrawing drawing = setup.hemicube_drawing;
+    if (drawing == HemicubeDrawing::kAuto) {
+      const bool many = mesh_.triangles.size() > kManyTriangles;
+      drawing = many && !setup.gl().info().hardware ? HemicubeDrawing::kRays : HemicubeDrawing::kOpenGl;
+    }
+    if (drawing == HemicubeDrawing::kRays) {
+      view_ = std::make_unique<HemicubeRays>(mesh_);
+      emitter_resolution_ = kTracedEmitterResolution;
+      note_ = "hemicubes are traced with rays: " + std::to_string(mesh_.triangles.size()) +
+              " triangles are too many a picture for a software renderer";
+    } else {
+      view_ = std::make_unique<HemicubePicture>(setup.gl(), mesh_);
+      emitter_resolution_ = kEmitterResolution;
+    }
+  }
+
+  // Cells without area border on the outline; rounding can put a pixel there, which then belongs to the
+  // nearest cell that has an element. Cells cut by contacts hold several elements; their pixels ask the
+  // pieces.
   void fillCells() {
     cell_element_.resize(mesh_.cells.size());
     for (std::size_t c = 0; c < mesh_.cells.size(); ++c) cell_element_[c] = mesh_.cells[c].element;
@@ -130,7 +154,8 @@ class Hemicube final : public FormFactorMethod {
         const auto spread = [&](bool possible, std::uint32_t other) {
           if (!possible || cell_element_[s.first_cell + other] != kNone) return;
           const std::uint32_t own = cell_element_[s.first_cell + c];
-          cell_element_[s.first_cell + other] = own != kMixed ? own : mesh_.pieces[mesh_.cells[s.first_cell + c].pieces.first].element;
+          cell_element_[s.first_cell + other] =
+              own != kMixed ? own : mesh_.pieces[mesh_.cells[s.first_cell + c].pieces.first].element;
           border.push_back(other);
         };
         spread(i > 0, c - 1);
@@ -184,7 +209,8 @@ class Hemicube final : public FormFactorMethod {
     const Surface& surface = mesh_.surfaces[region.surface];
     const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
     const std::uint64_t hash =
-        mixBits(mixBits(mixBits(seed_ ^ (region.surface * 2 + side.back)) ^ bits(region.sample.x)) ^ bits(region.sample.y));
+        mixBits(mixBits(mixBits(seed_ ^ (region.surface * 2 + side.back)) ^ bits(region.sample.x)) ^
+                bits(region.sample.y));
     const double angle = unitInterval(hash) * std::numbers::pi / 2;
     HemicubeFrame frame;
     frame.eye = surface.point(region.sample);
@@ -202,26 +228,30 @@ class Hemicube final : public FormFactorMethod {
     return false;
   }
 
-  // Shoots from the region or, where its view is too near for one point, from its parts. Adds share = area * per_area in all.
-  void shoot(const Region& region, const Side& side, bool may_split, double per_area) {
+  // Shoots from the region or, where its view is too near for one point, from its parts. Adds share = area *
+  // per_area in all.
+  void shoot(const Region& region, const Side& side, int splits, double per_area) {
     const bool emits = emitsMuch(region, side);
     const HemicubeLayout layout{emits ? emitter_resolution_ : resolution_};
     const std::vector<double>& delta = deltas(layout);
-    const HemicubePicture::Result seen = picture_.draw(frameOf(region, side), layout);
+    const HemicubeView::Result seen = view_->look(frameOf(region, side), layout);
     ++drawn_;
-    if (may_split && std::sqrt(region.area) > 1.4 * floor_) {
-      const double limit = std::sqrt(region.area) / (emits ? kEmitterSplitFraction : kSplitFraction) / seen.far_distance;
+    if (splits > 0 && std::sqrt(region.area) > 1.4 * floor_) {
+      const double limit =
+          std::sqrt(region.area) / (emits ? kEmitterSplitFraction : kSplitFraction) / seen.far_distance;
       double near = 0;
-      for (std::size_t k = 0; k < delta.size(); ++k) near += static_cast<double>(seen.distance[k]) < limit ? delta[k] : 0.0;
+      for (std::size_t k = 0; k < delta.size(); ++k)
+        near += static_cast<double>(seen.distance[k]) < limit ? delta[k] : 0.0;
       if (near > kNearShare) {
-        for (const Region& part : partsOf(mesh_, region)) shoot(part, side, true, per_area);
+        for (const Region& part : partsOf(mesh_, region)) shoot(part, side, splits - 1, per_area);
         return;
       }
     }
     count(seen, delta, layout, region.area * per_area);
   }
 
-  void count(const HemicubePicture::Result& seen, const std::vector<double>& delta, HemicubeLayout layout, double share) {
+  void count(const HemicubeView::Result& seen, const std::vector<double>& delta, HemicubeLayout layout,
+             double share) {
     for (std::size_t k = 0; k < delta.size(); ++k) {
       std::uint32_t element = elementOf(seen.items[k]);
       if (element == kTied) element = elementBeside(seen, layout, k);
@@ -234,8 +264,8 @@ class Hemicube final : public FormFactorMethod {
     }
   }
 
-  // kNone: the pixel sees nothing; kLost: a side that no light can reach, seen by rounding only; kTied: see Item::tie. What is
-  // lost shows as the column's defect.
+  // kNone: the pixel sees nothing; kLost: a side that no light can reach, seen by rounding only; kTied: see
+  // Item::tie. What is lost shows as the column's defect.
   static constexpr std::uint32_t kTied = kNone - 1, kLost = kNone - 2;
 
   std::uint32_t elementOf(const Item& item) const {
@@ -255,12 +285,13 @@ class Hemicube final : public FormFactorMethod {
     return first + local;
   }
 
-  // Where surfaces meet, rounding may let the one behind win a pixel, and light would leak through closed walls. Such a pixel
-  // takes what one next to it sees; where all are doubtful, its light is lost and shows as defect.
-  std::uint32_t elementBeside(const HemicubePicture::Result& seen, HemicubeLayout layout, std::size_t k) const {
+  // Where surfaces meet, rounding may let the one behind win a pixel, and light would leak through closed
+  // walls. Such a pixel takes what one next to it sees; where all are doubtful, its light is lost and shows
+  // as defect.
+  std::uint32_t elementBeside(const HemicubeView::Result& seen, HemicubeLayout layout, std::size_t k) const {
     const std::size_t width = layout.width();
-    const std::size_t beside[] = {k % width > 0 ? k - 1 : k, (k + 1) % width > 0 ? k + 1 : k, k >= width ? k - width : k,
-                                  k + width < seen.items.size() ? k + width : k};
+    const std::size_t beside[] = {k % width > 0 ? k - 1 : k, (k + 1) % width > 0 ? k + 1 : k,
+                                  k >= width ? k - width : k, k + width < seen.items.size() ? k + width : k};
     for (const std::size_t other : beside) {
       const std::uint32_t element = elementOf(seen.items[other]);
       if (element != kTied) return element;
@@ -269,7 +300,8 @@ class Hemicube final : public FormFactorMethod {
   }
 
   const Mesh& mesh_;
-  HemicubePicture picture_;
+  std::unique_ptr<HemicubeView> view_;
+  std::string note_;
   std::uint64_t seed_;
   double floor_ = 0;  // [m]
   std::uint32_t resolution_ = 0, emitter_resolution_ = 0;
@@ -285,6 +317,8 @@ class Hemicube final : public FormFactorMethod {
 
 }  // namespace
 
-std::unique_ptr<FormFactorMethod> makeHemicube(const FormFactorSetup& setup) { return std::make_unique<Hemicube>(setup); }
+std::unique_ptr<FormFactorMethod> makeHemicube(const FormFactorSetup& setup) {
+  return std::make_unique<Hemicube>(setup);
+}
 
 }  // namespace unshot

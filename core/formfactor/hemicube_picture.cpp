@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
-#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <numeric>
 
@@ -21,11 +20,9 @@ struct ItemVertex {
   glm::vec3 heights;
 };
 
-// Depth is the distance in single precision, so two surfaces that meet are told apart from this share of the scene's size on.
-constexpr double kTieMargin = 2e-6;
-
-// Triangles that are culled and drawn together. A software rasteriser (Mesa's) clips a whole draw the slow way as soon as one
-// of its triangles crosses the frustum, so clusters are small and not merged: half the time of 256 in a scene of 15,000.
+// Triangles that are culled and drawn together. A software rasteriser (Mesa's) clips a whole draw the slow
+// way as soon as one of its triangles crosses the frustum, so clusters are small and not merged: half the
+// time of 256 in a scene of 15,000.
 constexpr std::uint32_t kClusterVertices = 3 * 48;
 
 // Spreads the low 10 bits of x to every third bit.
@@ -36,20 +33,8 @@ std::uint32_t spread(std::uint32_t x) {
   return (x | x << 2) & 0x09249249u;
 }
 
-// Heights of a triangle's corners over its edges: corner k over edge e. An edge inside the surface is far from everything.
-glm::dmat3 outlineHeights(const ChartTriangle& t, double far) {
-  glm::dmat3 out(far);
-  for (int e = 0; e < 3; ++e) {
-    for (int k = 0; k < 3; ++k) out[k][e] = far;
-    if (!t.outline[e]) continue;
-    const glm::dvec2 a = t.uv[e], d = t.uv[(e + 1) % 3] - a, apex = t.uv[(e + 2) % 3] - a;
-    out[e][e] = out[(e + 1) % 3][e] = 0;
-    out[(e + 2) % 3][e] = std::abs(d.x * apex.y - d.y * apex.x) / glm::length(d);
-  }
-  return out;
-}
-
-// Surfaces along a space-filling curve (Morton 1966), so that neighbours in the buffer are neighbours in space.
+// Surfaces along a space-filling curve (Morton 1966), so that neighbours in the buffer are neighbours in
+// space.
 std::vector<std::uint32_t> spatialOrder(const Mesh& mesh) {
   const glm::dvec3 size = glm::max(mesh.bounds_max - mesh.bounds_min, 1e-300);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> keyed;
@@ -68,7 +53,10 @@ std::vector<std::uint32_t> spatialOrder(const Mesh& mesh) {
 }  // namespace
 
 HemicubePicture::HemicubePicture(gl::Context& context, const Mesh& mesh)
-    : context_(context), program_(context, {"item_buffer.vert", "item_buffer.frag"}), vertex_array_(context), vertices_(context) {
+    : context_(context),
+      program_(context, {"item_buffer.vert", "item_buffer.frag"}),
+      vertex_array_(context),
+      vertices_(context) {
   far_ = 2 * glm::length(mesh.bounds_max - mesh.bounds_min);
   upload(mesh);
 }
@@ -81,12 +69,14 @@ void HemicubePicture::upload(const Mesh& mesh) {
     for (std::uint32_t t = surface.triangles.first; t < surface.triangles.end(); ++t) {
       const ChartTriangle& triangle = mesh.triangles[t];
       if (vertices.size() % kClusterVertices == 0) {
-        clusters_.push_back({static_cast<std::uint32_t>(vertices.size()), 0, glm::dvec3(INFINITY), glm::dvec3(-INFINITY)});
+        clusters_.push_back(
+            {static_cast<std::uint32_t>(vertices.size()), 0, glm::dvec3(INFINITY), glm::dvec3(-INFINITY)});
       }
       const glm::dmat3 heights = outlineHeights(triangle, far_);
       for (int k = 0; k < 3; ++k) {
         const glm::dvec3& p = mesh.positions[triangle.position[k]];
-        vertices.push_back({glm::vec3(p), glm::vec2(triangle.uv[k] / surface.extent), s, glm::vec3(heights[k])});
+        vertices.push_back(
+            {glm::vec3(p), glm::vec2(triangle.uv[k] / surface.extent), s, glm::vec3(heights[k])});
         clusters_.back().low = glm::min(clusters_.back().low, p);
         clusters_.back().high = glm::max(clusters_.back().high, p);
         ++clusters_.back().count;
@@ -96,8 +86,8 @@ void HemicubePicture::upload(const Mesh& mesh) {
   const gl::Functions& fn = context_.functions();
   fn.BindVertexArray(vertex_array_.id());
   fn.BindBuffer(GL_ARRAY_BUFFER, vertices_.id());
-  fn.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(ItemVertex)), vertices.data(),
-                GL_STATIC_DRAW);
+  fn.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(ItemVertex)),
+                vertices.data(), GL_STATIC_DRAW);
   const auto at = [](std::size_t offset) { return reinterpret_cast<const void*>(offset); };
   fn.EnableVertexAttribArray(0);
   fn.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(ItemVertex), at(offsetof(ItemVertex, position)));
@@ -122,7 +112,8 @@ HemicubePicture::Target& HemicubePicture::target(HemicubeLayout layout) {
   fn.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   fn.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   fn.BindTexture(GL_TEXTURE_2D, t.depth.id());
-  fn.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, width, height, 0, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
+  fn.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, width, height, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
+                nullptr);
   fn.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   fn.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   fn.BindFramebuffer(GL_FRAMEBUFFER, t.framebuffer.id());
@@ -133,7 +124,7 @@ HemicubePicture::Target& HemicubePicture::target(HemicubeLayout layout) {
   return targets_.back();
 }
 
-HemicubePicture::Result HemicubePicture::draw(const HemicubeFrame& frame, HemicubeLayout layout) {
+HemicubeView::Result HemicubePicture::look(const HemicubeFrame& frame, HemicubeLayout layout) {
   const gl::Functions& fn = context_.functions();
   fn.BindFramebuffer(GL_FRAMEBUFFER, target(layout).framebuffer.id());
   fn.Enable(GL_DEPTH_TEST);
@@ -154,27 +145,27 @@ HemicubePicture::Result HemicubePicture::draw(const HemicubeFrame& frame, Hemicu
   fn.Uniform1f(program_.uniform("inverse_far"), static_cast<float>(1 / far_));
   fn.Uniform1f(program_.uniform("tie_margin"), static_cast<float>(kTieMargin * far_));
 
-  const glm::dvec3 left = glm::cross(frame.normal, frame.right);
-  const std::array<glm::dvec3, 5> forward{frame.normal, frame.right, left, -frame.right, -left};
+  const HemicubeFaces faces(frame);
   for (std::uint32_t face = 0; face < 5; ++face) {
     fn.Viewport(0, static_cast<GLint>(layout.faceRow(face)), static_cast<GLsizei>(layout.width()),
                 static_cast<GLsizei>(layout.faceHeight(face)));
-    drawFace(frame, forward[face], face == 0 ? left : frame.normal, face == 0);
+    drawFace(frame, faces.forward[face], faces.up[face], face == 0);
   }
   const std::size_t pixels = std::size_t{layout.width()} * layout.height();
   items_.resize(pixels);
   distance_.resize(pixels);
   fn.PixelStorei(GL_PACK_ALIGNMENT, 4);
-  fn.ReadPixels(0, 0, static_cast<GLsizei>(layout.width()), static_cast<GLsizei>(layout.height()), GL_RG_INTEGER,
-                GL_UNSIGNED_INT, items_.data());
-  fn.ReadPixels(0, 0, static_cast<GLsizei>(layout.width()), static_cast<GLsizei>(layout.height()), GL_DEPTH_COMPONENT,
-                GL_FLOAT, distance_.data());
+  fn.ReadPixels(0, 0, static_cast<GLsizei>(layout.width()), static_cast<GLsizei>(layout.height()),
+                GL_RG_INTEGER, GL_UNSIGNED_INT, items_.data());
+  fn.ReadPixels(0, 0, static_cast<GLsizei>(layout.width()), static_cast<GLsizei>(layout.height()),
+                GL_DEPTH_COMPONENT, GL_FLOAT, distance_.data());
   return {items_, distance_, far_};
 }
 
-// Side faces are half as high as wide and end at the horizon (an off-centre frustum), so nothing behind the eye's plane needs
-// clipping away.
-void HemicubePicture::drawFace(const HemicubeFrame& frame, const glm::dvec3& forward, const glm::dvec3& up, bool top) {
+// Side faces are half as high as wide and end at the horizon (an off-centre frustum), so nothing behind the
+// eye's plane needs clipping away.
+void HemicubePicture::drawFace(const HemicubeFrame& frame, const glm::dvec3& forward, const glm::dvec3& up,
+                               bool top) {
   const gl::Functions& fn = context_.functions();
   const double near = frame.near_distance;
   const glm::dmat4 projection = glm::frustum(-near, near, top ? -near : 0.0, near, near, far_);
@@ -182,15 +173,18 @@ void HemicubePicture::drawFace(const HemicubeFrame& frame, const glm::dvec3& for
   const glm::mat4 matrix(projection * view);
   fn.UniformMatrix4fv(program_.uniform("view_projection"), 1, GL_FALSE, glm::value_ptr(matrix));
   collectVisible(frame, forward, up, top);
-  if (!first_.empty()) fn.MultiDrawArrays(GL_TRIANGLES, first_.data(), count_.data(), static_cast<GLsizei>(first_.size()));
+  if (!first_.empty())
+    fn.MultiDrawArrays(GL_TRIANGLES, first_.data(), count_.data(), static_cast<GLsizei>(first_.size()));
 }
 
 // Clusters that reach into the face's pyramid.
-void HemicubePicture::collectVisible(const HemicubeFrame& frame, const glm::dvec3& forward, const glm::dvec3& up, bool top) {
+void HemicubePicture::collectVisible(const HemicubeFrame& frame, const glm::dvec3& forward,
+                                     const glm::dvec3& up, bool top) {
   first_.clear();
   count_.clear();
   const glm::dvec3 side = glm::cross(forward, up);
-  const std::array<glm::dvec3, 5> inward{forward + side, forward - side, top ? forward + up : up, forward - up, forward};
+  const std::array<glm::dvec3, 5> inward{forward + side, forward - side, top ? forward + up : up,
+                                         forward - up, forward};
   for (const Cluster& cluster : clusters_) {
     const glm::dvec3 low = cluster.low - frame.eye, high = cluster.high - frame.eye;
     const bool outside = std::any_of(inward.begin(), inward.end(), [&](const glm::dvec3& n) {

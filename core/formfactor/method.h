@@ -1,8 +1,9 @@
-// What a form-factor method offers: columns and rows of K, where K_vq is Lambert factor times visibility of receiver v and
-// source patch q: the share of v's view that q fills. H = K S.
+// What a form-factor method offers: columns and rows of K, where K_vq is Lambert factor times visibility of
+// receiver v and source patch q: the share of v's view that q fills. H = K S.
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "formfactor/receivers.h"
@@ -19,10 +20,13 @@ struct Column {
   template <class F>
   void forEach(F&& f) const {
     for (std::size_t i = 0; i < k.size(); ++i) {
-      if (k[i] != 0) f(receiver.empty() ? static_cast<std::uint32_t>(i) : receiver[i], static_cast<double>(k[i]));
+      if (k[i] != 0)
+        f(receiver.empty() ? static_cast<std::uint32_t>(i) : receiver[i], static_cast<double>(k[i]));
     }
   }
-  std::size_t bytes() const { return receiver.capacity() * sizeof(receiver[0]) + k.capacity() * sizeof(k[0]); }
+  std::size_t bytes() const {
+    return receiver.capacity() * sizeof(receiver[0]) + k.capacity() * sizeof(k[0]);
+  }
 };
 
 /// Where receiver v's light comes from: sum_q K_vq + escape = 1.
@@ -43,6 +47,9 @@ class FormFactorMethod {
   virtual Row row(std::uint32_t v) = 0;
   /// Pictures drawn so far (hemicubes), for reports; 0 where the method draws none.
   virtual std::uint64_t drawn() const { return 0; }
+  /// What the method chose by looking at the scene and the machine, with its reason; empty: nothing out of
+  /// the ordinary.
+  virtual std::string note() const { return {}; }
 };
 
 }  // namespace unshot

@@ -6,8 +6,8 @@
 
 namespace unshot {
 
-// A surface with the scene on one side of its plane has one lit side (or none). If all have, the scene lies on the border of
-// a convex body, and a line of sight between two of its points stays inside.
+// A surface with the scene on one side of its plane has one lit side (or none). If all have, the scene lies
+// on the border of a convex body, and a line of sight between two of its points stays inside.
 bool nothingCanOcclude(const Mesh& mesh) {
   return std::none_of(mesh.surfaces.begin(), mesh.surfaces.end(),
                       [](const Surface& s) { return s.side[0] != kNone && s.side[1] != kNone; });
@@ -20,13 +20,16 @@ std::span<const FormFactorMethodRow> formFactorMethods() {
        true,
        makeHemicube,
        [](const Mesh&) { return std::string(); }},
-      {{"closed-form", "Closed form", "exact Lambert factors of polygons; for scenes in which nothing can occlude"},
+      {{"closed-form", "Closed form",
+        "exact Lambert factors of polygons; for scenes in which nothing can occlude"},
        false,
        makeClosedForm,
        [](const Mesh& mesh) {
-         return nothingCanOcclude(mesh) ? std::string()
-                                        : std::string("closed-form factors know no occlusion, and in this scene surfaces can "
-                                                      "stand between others: shadows will be missing");
+         return nothingCanOcclude(mesh)
+                    ? std::string()
+                    : std::string(
+                          "closed-form factors know no occlusion, and in this scene surfaces can "
+                          "stand between others: shadows will be missing");
        }},
   }};
   return table;

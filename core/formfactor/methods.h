@@ -15,12 +15,18 @@ namespace gl {
 class Context;
 }
 
-/// What a method is made with. `gl` gives the context, current on the calling thread; called only by methods that draw.
+/// How hemicubes are drawn. kAuto: with OpenGL, but with rays where a scene is large and the renderer is
+/// software.
+enum class HemicubeDrawing { kAuto, kOpenGl, kRays };
+
+/// What a method is made with. `gl` gives the context, current on the calling thread; called only by methods
+/// that draw.
 struct FormFactorSetup {
   const Mesh* mesh = nullptr;
   std::function<gl::Context&()> gl;
   std::uint64_t seed = 1;
   std::uint32_t hemicube_resolution = 0;  ///< pixels; 0: the method's own choice
+  HemicubeDrawing hemicube_drawing = HemicubeDrawing::kAuto;
 };
 
 struct FormFactorMethodRow {
@@ -36,8 +42,8 @@ std::span<const FormFactorMethodRow> formFactorMethods();
 std::unique_ptr<FormFactorMethod> makeHemicube(const FormFactorSetup& setup);
 std::unique_ptr<FormFactorMethod> makeClosedForm(const FormFactorSetup& setup);
 
-/// Whether nothing can stand between any two points of the scene's lit sides: every surface has the whole scene on one side
-/// of its plane.
+/// Whether nothing can stand between any two points of the scene's lit sides: every surface has the whole
+/// scene on one side of its plane.
 bool nothingCanOcclude(const Mesh& mesh);
 
 }  // namespace unshot

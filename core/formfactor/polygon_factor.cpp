@@ -6,8 +6,8 @@
 
 namespace unshot {
 
-double pointToPolygonFactor(const glm::dvec3& point, const glm::dvec3& normal, std::span<const glm::dvec3> corners,
-                            std::vector<glm::dvec3>& scratch) {
+double pointToPolygonFactor(const glm::dvec3& point, const glm::dvec3& normal,
+                            std::span<const glm::dvec3> corners, std::vector<glm::dvec3>& scratch) {
   scratch.clear();
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const glm::dvec3 a = corners[k] - point, b = corners[(k + 1) % corners.size()] - point;

@@ -6,8 +6,8 @@
 namespace unshot {
 namespace {
 
-// On an edge the irradiance of two walls meets and Lambert's factor is undefined; a thousandth of the way to the element's
-// centre it has its one-sided limit to three digits.
+// On an edge the irradiance of two walls meets and Lambert's factor is undefined; a thousandth of the way to
+// the element's centre it has its one-sided limit to three digits.
 constexpr double kInset = 1e-3;
 
 void elementReceivers(const Mesh& mesh, Receivers& out) {
@@ -44,14 +44,16 @@ void vertexReceivers(const Mesh& mesh, Receivers& out) {
     const Vertex& vertex = mesh.vertices[v];
     out.reflectance.push_back(mesh.sides[vertex.side].reflectance);
     const double weight = 3 * out.area[v];
-    out.position.push_back(glm::dvec3(vertex.position) + (weight > 0 ? kInset / weight * toward[v] : glm::dvec3(0.0)));
+    out.position.push_back(glm::dvec3(vertex.position) +
+                           (weight > 0 ? kInset / weight * toward[v] : glm::dvec3(0.0)));
     out.normal.push_back(glm::normalize(glm::dvec3(vertex.normal)));
   }
   std::sort(shares.begin(), shares.end(), [](const PatchShare& a, const PatchShare& b) {
     return std::tie(a.receiver, a.patch) < std::tie(b.receiver, b.patch);
   });
   for (const PatchShare& s : shares) {
-    if (!out.shares.empty() && out.shares.back().receiver == s.receiver && out.shares.back().patch == s.patch) {
+    if (!out.shares.empty() && out.shares.back().receiver == s.receiver &&
+        out.shares.back().patch == s.patch) {
       out.shares.back().area += s.area;
     } else {
       out.shares.push_back(s);

@@ -1,5 +1,6 @@
-// Receivers: where irradiance H is known. Elements for methods that count (their H is a mean over the element), display
-// vertices for pointwise methods. And the restriction R: the mean of a receiver field over each patch.
+// Receivers: where irradiance H is known. Elements for methods that count (their H is a mean over the
+// element), display vertices for pointwise methods. And the restriction R: the mean of a receiver field over
+// each patch.
 #pragma once
 
 #include <vector>
@@ -19,12 +20,13 @@ struct PatchShare {
 
 struct Receivers {
   ReceiverKind kind = ReceiverKind::kElements;
-  std::vector<double> area;              ///< one per receiver [m^2]; sums to the lit area
-  std::vector<glm::dvec3> reflectance;   ///< rho, one per receiver
-  std::vector<glm::dvec3> position;      ///< kVertices only: moved off edges by a thousandth towards the element
-  std::vector<glm::dvec3> normal;        ///< kVertices only
-  std::vector<std::uint32_t> start{0};   ///< shares of receiver v: shares[start[v]] .. shares[start[v + 1] - 1]
-  std::vector<PatchShare> shares;        ///< sorted by receiver; over a patch they sum to its area
+  std::vector<double> area;             ///< one per receiver [m^2]; sums to the lit area
+  std::vector<glm::dvec3> reflectance;  ///< rho, one per receiver
+  std::vector<glm::dvec3> position;  ///< kVertices only: moved off edges by a thousandth towards the element
+  std::vector<glm::dvec3> normal;    ///< kVertices only
+  std::vector<std::uint32_t> start{
+      0};                          ///< shares of receiver v: shares[start[v]] .. shares[start[v + 1] - 1]
+  std::vector<PatchShare> shares;  ///< sorted by receiver; over a patch they sum to its area
 
   std::size_t size() const { return area.size(); }
 };

@@ -3,7 +3,8 @@
 namespace unshot {
 namespace {
 
-// Gathers pieces into area, centroid and the centre of the largest, which stands in where the centroid lies outside.
+// Gathers pieces into area, centroid and the centre of the largest, which stands in where the centroid lies
+// outside.
 struct Gatherer {
   double area = 0, largest = 0;
   glm::dvec2 moment{0.0}, largest_centre{0.0};
@@ -31,14 +32,16 @@ void forPieces(const Mesh& mesh, const Surface& s, std::uint32_t cell, std::uint
   const Range pieces = mesh.cells[cell].pieces;
   for (std::uint32_t p = pieces.first; p < pieces.end(); ++p) {
     const Piece& piece = mesh.pieces[p];
-    if (patch == kNone || mesh.shapes[s.elements.first + piece.element].patch == patch) f(cornersOf(mesh, piece));
+    if (patch == kNone || mesh.shapes[s.elements.first + piece.element].patch == patch)
+      f(cornersOf(mesh, piece));
   }
 }
 
 template <class F>
 void forPieces(const Mesh& mesh, const Surface& s, const Node& node, std::uint32_t patch, F&& f) {
   for (std::uint32_t j = node.v0; j < node.v1; ++j) {
-    for (std::uint32_t i = node.u0; i < node.u1; ++i) forPieces(mesh, s, s.first_cell + j * s.nu + i, patch, f);
+    for (std::uint32_t i = node.u0; i < node.u1; ++i)
+      forPieces(mesh, s, s.first_cell + j * s.nu + i, patch, f);
   }
 }
 
@@ -89,9 +92,9 @@ std::vector<Region> partsOf(const Mesh& mesh, const Region& region) {
     }
     return out;
   }
-  const std::uint32_t cell = region.node == kNone
-                                 ? region.cell
-                                 : s.first_cell + mesh.nodes[region.node].v0 * s.nu + mesh.nodes[region.node].u0;
+  const std::uint32_t cell =
+      region.node == kNone ? region.cell
+                           : s.first_cell + mesh.nodes[region.node].v0 * s.nu + mesh.nodes[region.node].u0;
   const glm::dvec2 middle = (region.low + region.high) / 2.0;
   const bool full = isFull(region);
   ConvexPolygon a, b;

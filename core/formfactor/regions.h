@@ -1,5 +1,5 @@
-// Parts of a patch to shoot from: what lies of it in the nodes of the subdivision tree below it and, below the cells, in
-// quarters of cells.
+// Parts of a patch to shoot from: what lies of it in the nodes of the subdivision tree below it and, below
+// the cells, in quarters of cells.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -13,12 +13,12 @@ namespace unshot {
 /// A part of a surface with area and a point on it to stand for it.
 struct Region {
   std::uint32_t surface = 0;
-  std::uint32_t patch = kNone;  ///< local patch that it is part of; kNone: whatever lies there
-  std::uint32_t node = kNone;  ///< a node of the tree, or kNone below the cells
-  std::uint32_t cell = kNone;  ///< below the cells: the one it lies in
+  std::uint32_t patch = kNone;     ///< local patch that it is part of; kNone: whatever lies there
+  std::uint32_t node = kNone;      ///< a node of the tree, or kNone below the cells
+  std::uint32_t cell = kNone;      ///< below the cells: the one it lies in
   glm::dvec2 low{0.0}, high{0.0};  ///< rectangle in the chart
-  double area = 0;             ///< inside the outline [m^2]
-  glm::dvec2 sample{0.0};      ///< on the surface, in the region: its centroid where that lies in it
+  double area = 0;                 ///< inside the outline [m^2]
+  glm::dvec2 sample{0.0};          ///< on the surface, in the region: its centroid where that lies in it
 };
 
 Region regionOfPatch(const Mesh& mesh, std::uint32_t surface, std::uint32_t patch);

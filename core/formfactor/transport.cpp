@@ -4,8 +4,8 @@
 
 namespace unshot {
 
-Transport::Transport(std::unique_ptr<FormFactorMethod> method, Receivers receivers, std::vector<double> patch_area,
-                     std::size_t kept_bytes)
+Transport::Transport(std::unique_ptr<FormFactorMethod> method, Receivers receivers,
+                     std::vector<double> patch_area, std::size_t kept_bytes)
     : method_(std::move(method)),
       receivers_(std::move(receivers)),
       patch_area_(std::move(patch_area)),
@@ -17,7 +17,8 @@ const Column& Transport::column(std::uint32_t q) {
   if (q == passing_patch_) return passing_;
   ++computed_;
   Column fresh = method_->column(q);
-  // The first columns asked for are the brightest patches: they are asked for most often, so none gives way to a later one.
+  // The first columns asked for are the brightest patches: they are asked for most often, so none gives way
+  // to a later one.
   if (kept_bytes_ + fresh.bytes() <= budget_) {
     kept_bytes_ += fresh.bytes();
     ++kept_count_;

@@ -1,5 +1,5 @@
-// Light transport as the solver sees it: columns, rows and products of K, whatever computes them; what was computed is kept
-// within a budget and computed again where it does not fit.
+// Light transport as the solver sees it: columns, rows and products of K, whatever computes them; what was
+// computed is kept within a budget and computed again where it does not fit.
 #pragma once
 
 #include <memory>

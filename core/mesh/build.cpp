@@ -15,15 +15,16 @@
 namespace unshot {
 namespace {
 
-// Patches are squares of so many cells that there are about a thousand of them: each then is a tenth of a room or less, below
-// which smaller sources bring no accuracy, while a pass over all of them stays short.
+// Patches are squares of so many cells that there are about a thousand of them: each then is a tenth of a
+// room or less, below which smaller sources bring no accuracy, while a pass over all of them stays short.
 std::uint32_t patchCells(double elements) {
   std::uint32_t cells = 1;
-  while (cells < 16 && elements / (cells * cells) > 1000) cells *= 2;
+  while (cells < 8 && elements / (cells * cells) > 1000) cells *= 2;
   return cells;
 }
 
-// A side is left out only if nothing of the scene lies in front of it: then no light reaches it and its own meets nothing.
+// A side is left out only if nothing of the scene lies in front of it: then no light reaches it and its own
+// meets nothing.
 void makeSides(const Scene& scene, const MeshOptions& options, Mesh& mesh) {
   std::vector<glm::dvec3> used;
   used.reserve(mesh.triangles.size() * 3);
@@ -94,8 +95,8 @@ void gridAll(Mesh& mesh, const std::vector<double>& sizes, const Contacts& conta
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
     Surface& surface = mesh.surfaces[s];
     if (litSides(surface) == 0) continue;
-    gridSurface(mesh, s, cellsAlong(surface.extent.x, sizes[s]), cellsAlong(surface.extent.y, sizes[s]), patch_cells,
-                contacts[s], tolerance);
+    gridSurface(mesh, s, cellsAlong(surface.extent.x, sizes[s]), cellsAlong(surface.extent.y, sizes[s]),
+                patch_cells, contacts[s], tolerance);
   }
 }
 
@@ -105,8 +106,8 @@ double countElements(const Mesh& mesh) {
   return count;
 }
 
-// Sizes per surface whose estimated count is nearest to `wanted`: one size for all, but for the few surfaces that tip from
-// one whole number of cells to the next just there.
+// Sizes per surface whose estimated count is nearest to `wanted`: one size for all, but for the few surfaces
+// that tip from one whole number of cells to the next just there.
 std::vector<double> sizesFor(const Mesh& mesh, double wanted) {
   const auto estimate = [&](double size) {
     double sum = 0;
@@ -133,7 +134,8 @@ std::vector<double> sizesFor(const Mesh& mesh, double wanted) {
 void gridForCount(Mesh& mesh, double wanted, const Contacts& contacts, double tolerance) {
   double asked = wanted, best_error = INFINITY;
   std::vector<double> best;
-  // Clipped and joined cells make the count differ from the estimate by some percent; a few corrections close the gap.
+  // Clipped and joined cells make the count differ from the estimate by some percent; a few corrections close
+  // the gap.
   for (int attempt = 0; attempt < 6; ++attempt) {
     const std::vector<double> sizes = sizesFor(mesh, asked);
     gridAll(mesh, sizes, contacts, tolerance);
@@ -147,12 +149,14 @@ void gridForCount(Mesh& mesh, double wanted, const Contacts& contacts, double to
   }
   if (std::abs(countElements(mesh) / wanted - 1) > best_error) gridAll(mesh, best, contacts, tolerance);
   if (best_error > 0.1) {
-    mesh.diagnostics.push_back({Severity::kNote, "element-count",
-                                std::to_string(static_cast<std::uint64_t>(wanted)) + " elements were asked for, the mesh has " +
-                                    std::to_string(static_cast<std::uint64_t>(countElements(mesh))) +
-                                    ": each of the " + std::to_string(mesh.sides.size()) +
-                                    " lit surface sides needs at least one",
-                                {}, {}});
+    mesh.diagnostics.push_back(
+        {Severity::kNote,
+         "element-count",
+         std::to_string(static_cast<std::uint64_t>(wanted)) + " elements were asked for, the mesh has " +
+             std::to_string(static_cast<std::uint64_t>(countElements(mesh))) + ": each of the " +
+             std::to_string(mesh.sides.size()) + " lit surface sides needs at least one",
+         {},
+         {}});
   }
 }
 
@@ -193,7 +197,8 @@ Mesh buildMesh(const Scene& scene, const MeshOptions& options) {
   mesh.materials = scene.materials;
   const SurfaceTopology topology = makeSurfaces(scene, weld(scene), mesh);
   if (mesh.surfaces.empty()) {
-    throw Error(ErrorKind::kInput, "no face of the scene has any area", scene.path.string(), "unshot check on the scene");
+    throw Error(ErrorKind::kInput, "no face of the scene has any area", scene.path.string(),
+                "unshot check on the scene");
   }
   makeSides(scene, options, mesh);
   const double tolerance = weldDistance(scene);
@@ -201,7 +206,8 @@ Mesh buildMesh(const Scene& scene, const MeshOptions& options) {
   if (options.elements) {
     gridForCount(mesh, static_cast<double>(*options.elements), contacts, tolerance);
   } else {
-    const double size = options.element_size.value_or(std::sqrt(mesh.lit_area / static_cast<double>(kDefaultElements)));
+    const double size =
+        options.element_size.value_or(std::sqrt(mesh.lit_area / static_cast<double>(kDefaultElements)));
     if (!mesh.sides.empty()) {
       gridAll(mesh, std::vector<double>(mesh.surfaces.size(), size), contacts, tolerance);
     }

@@ -11,14 +11,16 @@ namespace unshot {
 
 struct MeshOptions {
   std::optional<std::uint64_t> elements;  ///< over all lit sides, aimed at within 10 %
-  std::optional<double> element_size;     ///< [m]; without both, the size that would cut the lit area into 10,000 squares
+  std::optional<double>
+      element_size;  ///< [m]; without both, the size that would cut the lit area into 10,000 squares
   bool emit_front_only = false;
 };
 
 inline constexpr std::uint64_t kDefaultElements = 10'000;
 inline constexpr std::uint64_t kMostElements = 20'000'000;
 
-/// Throws Error: kUsage for impossible options or a fineness beyond kMostElements, kInput where no polygon has area.
+/// Throws Error: kUsage for impossible options or a fineness beyond kMostElements, kInput where no polygon
+/// has area.
 Mesh buildMesh(const Scene& scene, const MeshOptions& options);
 
 }  // namespace unshot

@@ -8,7 +8,8 @@ namespace {
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
-// Where edge p-q meets the line; computed the same way from either end, so that neighbours agree to the last bit.
+// Where edge p-q meets the line; computed the same way from either end, so that neighbours agree to the last
+// bit.
 glm::dvec2 crossing(glm::dvec2 p, glm::dvec2 q, int axis, double at) {
   if (q[axis] < p[axis]) std::swap(p, q);
   const double t = (at - p[axis]) / (q[axis] - p[axis]);

@@ -1,4 +1,5 @@
-// Clips convex polygons against axis-parallel lines (Sutherland and Hodgman 1974), remembering which edges are outline.
+// Clips convex polygons against axis-parallel lines (Sutherland and Hodgman 1974), remembering which edges
+// are outline.
 #pragma once
 
 #include <span>

@@ -12,12 +12,15 @@ namespace {
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
-// The part of the line a + t d (|d| = 1) inside a convex polygon: t in [first, second]; empty where first >= second.
-std::pair<double, double> insideRange(const ConvexPolygon& polygon, const glm::dvec2& a, const glm::dvec2& d) {
+// The part of the line a + t d (|d| = 1) inside a convex polygon: t in [first, second]; empty where first >=
+// second.
+std::pair<double, double> insideRange(const ConvexPolygon& polygon, const glm::dvec2& a,
+                                      const glm::dvec2& d) {
   double first = -INFINITY, second = INFINITY;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const glm::dvec2 p = polygon[k].uv, edge = polygon[(k + 1) % polygon.size()].uv - p;
-    const double distance = cross(edge, a - p), speed = cross(edge, d);  // inside where distance + t speed >= 0
+    const double distance = cross(edge, a - p),
+                 speed = cross(edge, d);  // inside where distance + t speed >= 0
     if (speed == 0) {
       if (distance < 0) return {0, 0};
       continue;
@@ -55,7 +58,8 @@ void halve(const ConvexPolygon& in, const glm::dvec2& a, const glm::dvec2& d, do
       if (h0 >= 0) half.push_back({in[k].uv, h0 == 0 && h1 < 0 ? false : in[k].outline});
       if ((h0 > 0 && h1 < 0) || (h0 < 0 && h1 > 0)) {
         // The same point from either half and from the neighbour across the edge.
-        const bool turned = in[next].uv.x < in[k].uv.x || (in[next].uv.x == in[k].uv.x && in[next].uv.y < in[k].uv.y);
+        const bool turned =
+            in[next].uv.x < in[k].uv.x || (in[next].uv.x == in[k].uv.x && in[next].uv.y < in[k].uv.y);
         const glm::dvec2 p = turned ? in[next].uv : in[k].uv, q = turned ? in[k].uv : in[next].uv;
         const double hp = turned ? height[next] : height[k], hq = turned ? height[k] : height[next];
         half.push_back({p + hp / (hp - hq) * (q - p), h0 < 0 && in[k].outline});
@@ -68,19 +72,31 @@ void halve(const ConvexPolygon& in, const glm::dvec2& a, const glm::dvec2& d, do
 bool onSegment(const glm::dvec2& p, const ContactSegment& s, double tolerance) {
   const glm::dvec2 d = s.b - s.a;
   const double length = glm::length(d), along = glm::dot(p - s.a, d) / length;
-  return std::abs(cross(d, p - s.a)) / length <= tolerance && along >= -tolerance && along <= length + tolerance;
+  return std::abs(cross(d, p - s.a)) / length <= tolerance && along >= -tolerance &&
+         along <= length + tolerance;
 }
 
 }  // namespace
 
 std::vector<std::vector<ContactSegment>> findContacts(const Mesh& mesh, const std::vector<SurfaceEdge>& edges,
                                                       double distance) {
+  // Each edge once, however many polygons share it; `first` is the first of its uses.
+  std::vector<std::uint32_t> first;
   std::vector<Box> boxes;
-  boxes.reserve(edges.size());
-  for (const SurfaceEdge& e : edges) {
-    const glm::dvec3 &p = mesh.positions[e.a], &q = mesh.positions[e.b];
+  for (std::uint32_t k = 0; k < edges.size(); ++k) {
+    if (k > 0 && edges[k].a == edges[k - 1].a && edges[k].b == edges[k - 1].b) continue;
+    const glm::dvec3 &p = mesh.positions[edges[k].a], &q = mesh.positions[edges[k].b];
+    first.push_back(k);
     boxes.push_back({glm::min(p, q), glm::max(p, q)});
   }
+  // Whether the surface has the edge itself: then it is outline already.
+  const auto owns = [&](std::uint32_t surface, std::uint32_t k) {
+    for (std::uint32_t use = k;
+         use < edges.size() && edges[use].a == edges[k].a && edges[use].b == edges[k].b; ++use) {
+      if (edges[use].surface == surface) return true;
+    }
+    return false;
+  };
   const BoxTree tree(std::move(boxes));
   std::vector<std::vector<ContactSegment>> out(mesh.surfaces.size());
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
@@ -93,10 +109,12 @@ std::vector<std::vector<ContactSegment>> findContacts(const Mesh& mesh, const st
       }
     }
     tree.overlapping(box, [&](std::uint32_t index) {
-      const SurfaceEdge& e = edges[index];
-      if (e.surface == s) return;
+      const SurfaceEdge& e = edges[first[index]];
       const glm::dvec3 p = mesh.positions[e.a] - surface.origin, q = mesh.positions[e.b] - surface.origin;
-      if (std::abs(glm::dot(p, surface.normal)) > distance || std::abs(glm::dot(q, surface.normal)) > distance) return;
+      if (std::abs(glm::dot(p, surface.normal)) > distance ||
+          std::abs(glm::dot(q, surface.normal)) > distance)
+        return;
+      if (owns(s, first[index])) return;
       const ContactSegment segment{{glm::dot(p, surface.axis_u), glm::dot(p, surface.axis_v)},
                                    {glm::dot(q, surface.axis_u), glm::dot(q, surface.axis_v)}};
       const auto outside = [&](int axis) {
@@ -109,10 +127,23 @@ std::vector<std::vector<ContactSegment>> findContacts(const Mesh& mesh, const st
   return out;
 }
 
-void cutByContacts(std::vector<ConvexPolygon>& polygons, const std::vector<ContactSegment>& contacts, double tolerance) {
+void cutByContacts(std::vector<ConvexPolygon>& polygons, const std::vector<ContactSegment>& contacts,
+                   double tolerance) {
   std::vector<ConvexPolygon> next;
   std::vector<const ContactSegment*> near;
+  glm::dvec2 low(INFINITY), high(-INFINITY);
+  for (const ConvexPolygon& p : polygons) {
+    for (const PieceCorner& c : p) {
+      low = glm::min(low, c.uv - 2 * tolerance);
+      high = glm::max(high, c.uv + 2 * tolerance);
+    }
+  }
+  const auto elsewhere = [&](const ContactSegment& s) {
+    return std::max(s.a.x, s.b.x) < low.x || std::max(s.a.y, s.b.y) < low.y ||
+           std::min(s.a.x, s.b.x) > high.x || std::min(s.a.y, s.b.y) > high.y;
+  };
   for (const ContactSegment& segment : contacts) {
+    if (elsewhere(segment)) continue;
     const double length = glm::distance(segment.a, segment.b);
     const glm::dvec2 d = (segment.b - segment.a) / length;
     const bool passes = std::any_of(polygons.begin(), polygons.end(), [&](const ConvexPolygon& p) {

@@ -1,5 +1,6 @@
-// Contacts: where edges of other surfaces lie in a surface's plane, inside its outline (a block on a floor, a wall on a
-// carpet). Light differs on the two sides of such a line, so cells are cut along it and nothing is interpolated across.
+// Contacts: where edges of other surfaces lie in a surface's plane, inside its outline (a block on a floor, a
+// wall on a carpet). Light differs on the two sides of such a line, so cells are cut along it and nothing is
+// interpolated across.
 #pragma once
 
 #include <vector>
@@ -14,14 +15,15 @@ struct ContactSegment {
   glm::dvec2 a{0.0}, b{0.0};
 };
 
-/// Contact segments of each surface. `edges`: all edges of the scene's polygons; `distance` [m]: how near to the plane an
+/// Contact segments of each surface. `edges`: all edges of the scene's polygons, equal ones
+/// side by side; `distance` [m]: how near to the plane an
 /// edge lies in it.
 std::vector<std::vector<ContactSegment>> findContacts(const Mesh& mesh, const std::vector<SurfaceEdge>& edges,
                                                       double distance);
 
-/// Cuts the convex polygons of one cell by the lines of those segments that pass through it, and marks every edge that lies on
-/// a segment as outline. `tolerance` [m].
-void cutByContacts(std::vector<std::vector<PieceCorner>>& polygons, const std::vector<ContactSegment>& contacts,
-                   double tolerance);
+/// Cuts the convex polygons of one cell by the lines of those segments that pass through it, and marks every
+/// edge that lies on a segment as outline. `tolerance` [m].
+void cutByContacts(std::vector<std::vector<PieceCorner>>& polygons,
+                   const std::vector<ContactSegment>& contacts, double tolerance);
 
 }  // namespace unshot

@@ -1,7 +1,9 @@
 #include "mesh/display.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <set>
@@ -64,12 +66,13 @@ class DisplayMaker {
     }
   }
 
-  // A corner of a piece in its ring: the point and whether the edge to the next one is outline. A point that lies on an edge
-  // of the piece, because a neighbour has a corner there, is put in between the edge's ends.
+  // A corner of a piece in its ring: the point and whether the edge to the next one is outline. A point that
+  // lies on an edge of the piece, because a neighbour has a corner there, is put in between the edge's ends.
   struct RingCorner {
     std::uint32_t point;
     bool outline;
-    std::uint32_t from = kNone, to = kNone;  // ring corners of the edge it was put in; kNone for a corner of the piece
+    std::uint32_t from = kNone,
+                  to = kNone;  // ring corners of the edge it was put in; kNone for a corner of the piece
     float along = 0;
     bool putIn() const { return from != kNone; }
   };
@@ -151,14 +154,15 @@ class DisplayMaker {
   }
 
   struct RingEdge {
-    std::uint32_t low, high;  // points
+    std::uint32_t low, high;        // points
     std::uint32_t at_low, at_high;  // ring corners there
     std::uint32_t surface;
     bool outline;
   };
 
-  // Ring corners are one vertex where pieces share an edge across which light is continuous: within a surface an edge that is
-  // not outline, between surfaces an edge of a smooth pair. Side by side: group 2 corner + back.
+  // Ring corners are one vertex where pieces share an edge across which light is continuous: within a surface
+  // an edge that is not outline, between surfaces an edge of a smooth pair. Side by side: group 2 corner +
+  // back.
   void joinCorners() {
     std::vector<RingEdge> edges;
     edges.reserve(ring_.size());
@@ -167,17 +171,21 @@ class DisplayMaker {
         const std::uint32_t next = k + 1 < ring_start_[p + 1] ? k + 1 : ring_start_[p];
         const bool forward = ring_[k].point < ring_[next].point;
         const std::uint32_t low = forward ? k : next, high = forward ? next : k;
-        edges.push_back({ring_[low].point, ring_[high].point, low, high, piece_surface_[p], ring_[k].outline});
+        edges.push_back(
+            {ring_[low].point, ring_[high].point, low, high, piece_surface_[p], ring_[k].outline});
       }
     }
-    std::sort(edges.begin(), edges.end(),
-              [](const RingEdge& a, const RingEdge& b) { return std::tie(a.low, a.high) < std::tie(b.low, b.high); });
+    std::sort(edges.begin(), edges.end(), [](const RingEdge& a, const RingEdge& b) {
+      return std::tie(a.low, a.high) < std::tie(b.low, b.high);
+    });
     std::set<std::tuple<std::uint32_t, std::uint32_t, bool>> smooth;
-    for (const SmoothPair& pair : pairs_) smooth.emplace(std::min(pair.a, pair.b), std::max(pair.a, pair.b), pair.flipped);
+    for (const SmoothPair& pair : pairs_)
+      smooth.emplace(std::min(pair.a, pair.b), std::max(pair.a, pair.b), pair.flipped);
     group_.resize(2 * ring_.size());
     std::iota(group_.begin(), group_.end(), 0u);
     for (std::size_t i = 0; i < edges.size(); ++i) {
-      for (std::size_t j = i + 1; j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high; ++j) {
+      for (std::size_t j = i + 1;
+           j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high; ++j) {
         const RingEdge &a = edges[i], &b = edges[j];
         if (a.surface == b.surface) {
           if (!a.outline && !b.outline) joinEdge(a, b, 0);
@@ -251,8 +259,8 @@ class DisplayMaker {
   };
   using Rows = std::vector<std::vector<Entry>>;
 
-  // Elements around a vertex count by the inverse of their centre's distance. A vertex that is only put in takes the values
-  // of its edge's ends, so that putting it in changes nothing that is seen.
+  // Elements around a vertex count by the inverse of their centre's distance. A vertex that is only put in
+  // takes the values of its edge's ends, so that putting it in changes nothing that is seen.
   void makeWeights() {
     Rows rows(mesh_.vertices.size());
     std::vector<char> real(mesh_.vertices.size(), 0);
@@ -271,7 +279,8 @@ class DisplayMaker {
           if (side == kNone || !real[vertex]) continue;
           const std::uint32_t element = mesh_.sides[side].first_element + mesh_.pieces[p].element;
           auto& row = rows[vertex];
-          const bool known = std::any_of(row.begin(), row.end(), [&](const Entry& e) { return e.element == element; });
+          const bool known =
+              std::any_of(row.begin(), row.end(), [&](const Entry& e) { return e.element == element; });
           if (!known) row.push_back({element, static_cast<float>(1 / distance)});
         }
       }
@@ -281,13 +290,68 @@ class DisplayMaker {
       for (const Entry& e : row) sum += e.weight;
       for (Entry& e : row) e.weight /= sum;
     }
+    interpolateInCells(rows);
     interpolateAlongEdges(real, rows);
     for (const auto& row : rows) {
       for (const Entry& e : row) {
         mesh_.vertex_from_elements.index.push_back(e.element);
         mesh_.vertex_from_elements.weight.push_back(e.weight);
       }
-      mesh_.vertex_from_elements.start.push_back(static_cast<std::uint32_t>(mesh_.vertex_from_elements.index.size()));
+      mesh_.vertex_from_elements.start.push_back(
+          static_cast<std::uint32_t>(mesh_.vertex_from_elements.index.size()));
+    }
+  }
+
+  // Ring corners of the cell's pieces at its four corners: (low, low), (high, low), (low, high), (high,
+  // high); kNone where the cell is clipped there.
+  std::array<std::uint32_t, 4> gridCorners(const Surface& surface, std::uint32_t cell) const {
+    const glm::dvec2 step = surface.extent / glm::dvec2(surface.nu, surface.nv);
+    const glm::dvec2 low = step * glm::dvec2(cell % surface.nu, cell / surface.nu);
+    std::array<std::uint32_t, 4> out{kNone, kNone, kNone, kNone};
+    const Range pieces = mesh_.cells[surface.first_cell + cell].pieces;
+    for (std::uint32_t k = ring_start_[pieces.first]; k < ring_start_[pieces.end()]; ++k) {
+      const glm::dvec2 t = (surface.chart(points_[ring_[k].point]) - low) / step;
+      const glm::dvec2 nearest = glm::round(t);
+      if (glm::distance(t * step, nearest * step) > 2 * distance_) continue;
+      out[static_cast<std::size_t>(nearest.x + 2 * nearest.y)] = k;
+    }
+    return out;
+  }
+
+  // What the triangles of the input and the corners of neighbours cut into a whole cell is bilinear between
+  // its corners, so that such cuts do not show.
+  void interpolateInCells(Rows& rows) const {
+    std::vector<char> done(rows.size(), 0);
+    for (const Surface& surface : mesh_.surfaces) {
+      const glm::dvec2 step = surface.extent / glm::dvec2(surface.nu, surface.nv);
+      for (std::uint32_t c = 0; surface.elements.count > 0 && c < surface.nu * surface.nv; ++c) {
+        const Cell& cell = mesh_.cells[surface.first_cell + c];
+        if (cell.element == kNone || cell.element == kMixed) continue;
+        const std::uint32_t first = ring_start_[cell.pieces.first], end = ring_start_[cell.pieces.end()];
+        if (end - first <= 4) continue;
+        const auto corners = gridCorners(surface, c);
+        if (std::count(corners.begin(), corners.end(), kNone) != 0) continue;
+        const glm::dvec2 low = step * glm::dvec2(c % surface.nu, c / surface.nu);
+        for (std::uint32_t k = first; k < end; ++k) {
+          const bool at_corner = std::any_of(corners.begin(), corners.end(), [&](std::uint32_t corner) {
+            return ring_[corner].point == ring_[k].point;
+          });
+          if (at_corner) continue;
+          const glm::dvec2 t = glm::clamp((surface.chart(points_[ring_[k].point]) - low) / step, 0.0, 1.0);
+          for (std::uint32_t back = 0; back < 2; ++back) {
+            const std::uint32_t vertex = vertex_[2 * k + back];
+            if (vertex == kNone || std::exchange(done[vertex], char{1})) continue;
+            std::vector<Entry> row;
+            for (std::uint32_t q = 0; q < 4; ++q) {
+              const double share = (q & 1 ? t.x : 1 - t.x) * (q & 2 ? t.y : 1 - t.y);
+              for (const Entry& e : rows[vertex_[2 * corners[q] + back]]) {
+                row.push_back({e.element, static_cast<float>(share) * e.weight});
+              }
+            }
+            rows[vertex] = std::move(row);
+          }
+        }
+      }
     }
   }
 
@@ -314,9 +378,9 @@ class DisplayMaker {
   std::vector<glm::dvec3> points_;
   std::vector<std::uint32_t> corner_point_;  // per piece corner
   std::vector<RingCorner> ring_;
-  std::vector<std::uint32_t> ring_start_;    // per piece
-  std::vector<std::uint32_t> group_;         // union-find over 2 ring corner + back
-  std::vector<std::uint32_t> vertex_;        // display vertex of 2 ring corner + back
+  std::vector<std::uint32_t> ring_start_;  // per piece
+  std::vector<std::uint32_t> group_;       // union-find over 2 ring corner + back
+  std::vector<std::uint32_t> vertex_;      // display vertex of 2 ring corner + back
 };
 
 }  // namespace

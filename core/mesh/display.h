@@ -1,5 +1,5 @@
-// Display triangles and vertices of a gridded mesh, without cracks: vertices of neighbours that lie on a piece's edge become
-// its corners; interpolation from the elements around each vertex.
+// Display triangles and vertices of a gridded mesh, without cracks: vertices of neighbours that lie on a
+// piece's edge become its corners; interpolation from the elements around each vertex.
 #pragma once
 
 #include <span>
@@ -9,7 +9,8 @@
 
 namespace unshot {
 
-/// Fills vertices, triangle_vertices, triangle_element and vertex_from_elements. Points closer than `weld_distance` are one.
+/// Fills vertices, triangle_vertices, triangle_element and vertex_from_elements. Points closer than
+/// `weld_distance` are one.
 void makeDisplay(Mesh& mesh, std::span<const SmoothPair> smooth_pairs, double weld_distance);
 
 }  // namespace unshot

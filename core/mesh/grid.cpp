@@ -25,8 +25,8 @@ class Groups {  // union-find
 
 class SurfaceGrid {
  public:
-  SurfaceGrid(Mesh& mesh, std::uint32_t surface, std::uint32_t patch_cells, const std::vector<ContactSegment>& contacts,
-              double tolerance)
+  SurfaceGrid(Mesh& mesh, std::uint32_t surface, std::uint32_t patch_cells,
+              const std::vector<ContactSegment>& contacts, double tolerance)
       : mesh_(mesh),
         surface_index_(surface),
         surface_(mesh.surfaces[surface]),
@@ -108,9 +108,10 @@ class SurfaceGrid {
       pieces.first = static_cast<std::uint32_t>(mesh_.pieces.size());
       if (!contacts_.empty()) cutByContacts(in_cell[c], contacts_, tolerance_);
       for (const ConvexPolygon& p : in_cell[c]) {
-        mesh_.pieces.push_back({{static_cast<std::uint32_t>(mesh_.piece_corners.size()), static_cast<std::uint32_t>(p.size())},
-                                polygonArea(p),
-                                0});
+        mesh_.pieces.push_back(
+            {{static_cast<std::uint32_t>(mesh_.piece_corners.size()), static_cast<std::uint32_t>(p.size())},
+             polygonArea(p),
+             0});
         mesh_.piece_corners.insert(mesh_.piece_corners.end(), p.begin(), p.end());
         ++pieces.count;
       }
@@ -132,7 +133,8 @@ class SurfaceGrid {
       area.push_back(graph.parts[p].area);
       if (area[p] < enough) small.push_back(p);
     }
-    std::sort(small.begin(), small.end(), [&](auto a, auto b) { return graph.parts[a].area < graph.parts[b].area; });
+    std::sort(small.begin(), small.end(),
+              [&](auto a, auto b) { return graph.parts[a].area < graph.parts[b].area; });
     for (const std::uint32_t p : small) {
       const std::uint32_t own = groups.find(p);
       if (area[own] >= enough) continue;
@@ -192,7 +194,8 @@ class SurfaceGrid {
     std::vector<double> largest(n, 0.0);
     for (std::uint32_t k = firstPiece(); k < mesh_.pieces.size(); ++k) {
       const Piece& piece = mesh_.pieces[k];
-      const glm::dvec2 centre = polygonCentroid({&mesh_.piece_corners[piece.corners.first], piece.corners.count});
+      const glm::dvec2 centre =
+          polygonCentroid({&mesh_.piece_corners[piece.corners.first], piece.corners.count});
       moment[piece.element] += piece.area * centre;
       if (piece.area <= largest[piece.element]) continue;
       largest[piece.element] = piece.area;
@@ -205,7 +208,8 @@ class SurfaceGrid {
       const Range pieces = mesh_.cells[cellAt(surface_, centroid)].pieces;
       for (std::uint32_t k = pieces.first; k < pieces.end() && !inside; ++k) {
         const Range corners = mesh_.pieces[k].corners;
-        inside = mesh_.pieces[k].element == e && contains({&mesh_.piece_corners[corners.first], corners.count}, centroid);
+        inside = mesh_.pieces[k].element == e &&
+                 contains({&mesh_.piece_corners[corners.first], corners.count}, centroid);
       }
       shape.centre = surface_.point(inside ? centroid : largest_centre[e]);
     }
@@ -281,7 +285,8 @@ class SurfaceGrid {
     surface_.patches.count = static_cast<std::uint32_t>(mesh_.patch_shapes.size()) - surface_.patches.first;
     for (std::uint32_t p = 0; p < graph.parts.size(); ++p) {
       const std::uint32_t patch_node = cell_patch_node_[graph.parts[p].cell];
-      PatchShape& own = mesh_.patch_shapes[surface_.patches.first + mesh_.shapes[surface_.elements.first + part_element_[p]].patch];
+      PatchShape& own = mesh_.patch_shapes[surface_.patches.first +
+                                           mesh_.shapes[surface_.elements.first + part_element_[p]].patch];
       if (own.node != patch_node) own.whole = false;
     }
     markSharedNodes(graph);
@@ -318,8 +323,8 @@ class SurfaceGrid {
 
 }  // namespace
 
-void gridSurface(Mesh& mesh, std::uint32_t surface, std::uint32_t nu, std::uint32_t nv, std::uint32_t patch_cells,
-                 const std::vector<ContactSegment>& contacts, double tolerance) {
+void gridSurface(Mesh& mesh, std::uint32_t surface, std::uint32_t nu, std::uint32_t nv,
+                 std::uint32_t patch_cells, const std::vector<ContactSegment>& contacts, double tolerance) {
   SurfaceGrid(mesh, surface, patch_cells, contacts, tolerance).run(nu, nv);
 }
 

@@ -1,5 +1,5 @@
-// Lays a grid over a surface: cells cut by its outline and contacts, slivers joined to their neighbours, the four-way tree
-// above.
+// Lays a grid over a surface: cells cut by its outline and contacts, slivers joined to their neighbours, the
+// four-way tree above.
 #pragma once
 
 #include <vector>
@@ -9,15 +9,16 @@
 
 namespace unshot {
 
-/// Parts of cells with less than this share of a full cell's area join the neighbour they share the longest border with. Below it,
-/// counted pixels make an element's value noisy; above it, joined elements would look uneven.
+/// Parts of cells with less than this share of a full cell's area join the neighbour they share the longest
+/// border with. Below it, counted pixels make an element's value noisy; above it, joined elements would look
+/// uneven.
 inline constexpr double kSliverShare = 0.4;
 
-/// Fills surface.nu, nv, first_cell, root, elements and patches, appending to cells, pieces, piece_corners, nodes,
-/// patch_shapes and shapes of the mesh. A patch spans at most patch_cells x patch_cells cells. `tolerance` [m]: what is
-/// nearer than this to a contact lies on it.
-void gridSurface(Mesh& mesh, std::uint32_t surface, std::uint32_t nu, std::uint32_t nv, std::uint32_t patch_cells,
-                 const std::vector<ContactSegment>& contacts, double tolerance);
+/// Fills surface.nu, nv, first_cell, root, elements and patches, appending to cells, pieces, piece_corners,
+/// nodes, patch_shapes and shapes of the mesh. A patch spans at most patch_cells x patch_cells cells.
+/// `tolerance` [m]: what is nearer than this to a contact lies on it.
+void gridSurface(Mesh& mesh, std::uint32_t surface, std::uint32_t nu, std::uint32_t nv,
+                 std::uint32_t patch_cells, const std::vector<ContactSegment>& contacts, double tolerance);
 
 /// The cell (its index in Mesh::cells) at chart position uv, clamped to the grid.
 inline std::uint32_t cellAt(const Surface& s, const glm::dvec2& uv) {
@@ -27,8 +28,9 @@ inline std::uint32_t cellAt(const Surface& s, const glm::dvec2& uv) {
   return s.first_cell + j * s.nu + i;
 }
 
-/// The local element at chart position uv: the one that holds it or, outside the outline, the nearest in its cell. kNone
-/// where the cell has no area, or where several elements lie within `margin` [m] of uv and none is sure to hold it.
+/// The local element at chart position uv: the one that holds it or, outside the outline, the nearest in its
+/// cell. kNone where the cell has no area, or where several elements lie within `margin` [m] of uv and none
+/// is sure to hold it.
 std::uint32_t elementAt(const Mesh& mesh, const Surface& s, const glm::dvec2& uv, double margin = 0);
 
 }  // namespace unshot

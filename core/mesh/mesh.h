@@ -1,11 +1,12 @@
-// The discretisation: surfaces with charts, their subdivision trees, elements and patches per side, display vertices.
+// The discretisation: surfaces with charts, their subdivision trees, elements and patches per side, display
+// vertices.
 //
-// A surface is a connected set of coplanar polygons of one material. Its chart maps (u, v) in metres of the scene to
-// origin + u axis_u + v axis_v. Over the chart lies a grid of nu x nv cells, the leaves of a four-way tree of cell
-// rectangles; a cell is cut by the surface's outline and by contacts with other surfaces into convex pieces. An element is
-// what hangs together in a cell, or in several where it would be a sliver. A patch is what hangs together in an inner node of
-// the tree: the source of light. Geometry is per surface; each side that light can reach has its own elements and patches,
-// numbered over the whole mesh.
+// A surface is a connected set of coplanar polygons of one material. Its chart maps (u, v) in metres of the
+// scene to origin + u axis_u + v axis_v. Over the chart lies a grid of nu x nv cells, the leaves of a
+// four-way tree of cell rectangles; a cell is cut by the surface's outline and by contacts with other
+// surfaces into convex pieces. An element is what hangs together in a cell, or in several where it would be a
+// sliver. A patch is what hangs together in an inner node of the tree: the source of light. Geometry is per
+// surface; each side that light can reach has its own elements and patches, numbered over the whole mesh.
 #pragma once
 
 #include <cstdint>
@@ -31,16 +32,18 @@ struct Surface {
   glm::dvec3 origin{0.0}, axis_u{1, 0, 0}, axis_v{0, 1, 0}, normal{0, 0, 1};  ///< orthonormal, right-handed
   glm::dvec2 extent{0.0};  ///< the chart covers [0, extent.x] x [0, extent.y]
   double area = 0;         ///< [m^2], of one side
-  Range triangles;         ///< in Mesh::triangles: the polygons of the scene, counter-clockwise about `normal`
-  std::uint32_t nu = 1, nv = 1;  ///< cells along u and v
-  std::uint32_t first_cell = 0;  ///< in Mesh::cells; cell (i, j) is first_cell + j nu + i
-  std::uint32_t root = 0;        ///< in Mesh::nodes
-  Range elements;                ///< in Mesh::shapes: the surface's elements, whatever the side
-  Range patches;                 ///< in Mesh::patch_shapes
+  Range triangles;  ///< in Mesh::triangles: the polygons of the scene, counter-clockwise about `normal`
+  std::uint32_t nu = 1, nv = 1;            ///< cells along u and v
+  std::uint32_t first_cell = 0;            ///< in Mesh::cells; cell (i, j) is first_cell + j nu + i
+  std::uint32_t root = 0;                  ///< in Mesh::nodes
+  Range elements;                          ///< in Mesh::shapes: the surface's elements, whatever the side
+  Range patches;                           ///< in Mesh::patch_shapes
   std::uint32_t side[2] = {kNone, kNone};  ///< front, back: in Mesh::sides; kNone where no light can reach
 
   glm::dvec3 point(const glm::dvec2& uv) const { return origin + uv.x * axis_u + uv.y * axis_v; }
-  glm::dvec2 chart(const glm::dvec3& p) const { return {glm::dot(p - origin, axis_u), glm::dot(p - origin, axis_v)}; }
+  glm::dvec2 chart(const glm::dvec3& p) const {
+    return {glm::dot(p - origin, axis_u), glm::dot(p - origin, axis_v)};
+  }
 };
 
 /// One side of a surface that light can reach.
@@ -65,12 +68,13 @@ inline constexpr std::uint32_t kMixed = kNone - 1;
 
 /// A leaf of the tree: a grid cell.
 struct Cell {
-  std::uint32_t element = kNone;  ///< local element (in the surface); kNone: no area here; kMixed: ask the pieces
-  Range pieces;                   ///< in Mesh::pieces
+  std::uint32_t element =
+      kNone;     ///< local element (in the surface); kNone: no area here; kMixed: ask the pieces
+  Range pieces;  ///< in Mesh::pieces
 };
 
-/// A corner of a piece; `outline`: the edge to the next corner lies on the surface's outline or on a contact, so nothing is
-/// interpolated across it.
+/// A corner of a piece; `outline`: the edge to the next corner lies on the surface's outline or on a contact,
+/// so nothing is interpolated across it.
 struct PieceCorner {
   glm::dvec2 uv{0.0};
   bool outline = false;
@@ -102,8 +106,8 @@ struct PatchShape {
 /// What both sides of an element share.
 struct ElementShape {
   double area = 0;
-  glm::dvec3 centre{0.0};  ///< on the surface, inside the element
-  std::uint32_t patch = 0; ///< local patch of its surface
+  glm::dvec3 centre{0.0};   ///< on the surface, inside the element
+  std::uint32_t patch = 0;  ///< local patch of its surface
 };
 
 /// A display vertex of one side (shared across smooth neighbours of one material).
@@ -136,8 +140,8 @@ struct Mesh {
   std::vector<Piece> pieces;
   std::vector<PieceCorner> piece_corners;
   std::vector<Node> nodes;
-  std::vector<PatchShape> patch_shapes;    ///< local patches
-  std::vector<ElementShape> shapes;        ///< local elements
+  std::vector<PatchShape> patch_shapes;  ///< local patches
+  std::vector<ElementShape> shapes;      ///< local elements
 
   // Sides, and what is numbered over all of them.
   std::vector<Side> sides;

@@ -98,7 +98,8 @@ class PartFinder {
             const double at = line * step_[axis];
             if (std::abs(p[axis] - at) > near_ || std::abs(q[axis] - at) > near_) continue;
             const double x = p[1 - axis], y = q[1 - axis];
-            if (std::abs(x - y) > near_) edges.push_back({axis, line, above == 1, std::min(x, y), std::max(x, y), part});
+            if (std::abs(x - y) > near_)
+              edges.push_back({axis, line, above == 1, std::min(x, y), std::max(x, y), part});
           }
         }
       }

@@ -1,4 +1,5 @@
-// Which pieces of a grid hang together: parts of cells, and the borders that parts of neighbouring cells share.
+// Which pieces of a grid hang together: parts of cells, and the borders that parts of neighbouring cells
+// share.
 #pragma once
 
 #include <vector>
@@ -20,8 +21,8 @@ struct PartBorder {
 };
 
 struct PartGraph {
-  std::vector<Part> parts;                 ///< by cell
-  std::vector<std::uint32_t> piece_part;   ///< part of each piece, counted from the surface's first piece
+  std::vector<Part> parts;                ///< by cell
+  std::vector<std::uint32_t> piece_part;  ///< part of each piece, counted from the surface's first piece
   std::vector<PartBorder> borders;
 };
 

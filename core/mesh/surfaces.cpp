@@ -41,7 +41,8 @@ class SurfaceMaker {
       : scene_(scene), welded_(welded), mesh_(mesh), surface_of_(scene.polygons.size(), kNone) {}
 
   SurfaceTopology run() {
-    for (std::size_t p = 0; p < scene_.polygons.size(); ++p) planes_.push_back(planeOf(welded_, welded_.outline(p)));
+    for (std::size_t p = 0; p < scene_.polygons.size(); ++p)
+      planes_.push_back(planeOf(welded_, welded_.outline(p)));
     collectEdges();
     mesh_.positions = welded_.positions;
     for (std::uint32_t p = 0; p < scene_.polygons.size(); ++p) {
@@ -68,7 +69,9 @@ class SurfaceMaker {
     neighbours_.resize(scene_.polygons.size());
     for (std::size_t first = 0; first < edges_.size();) {
       std::size_t end = first;
-      while (end < edges_.size() && edges_[end].low == edges_[first].low && edges_[end].high == edges_[first].high) ++end;
+      while (end < edges_.size() && edges_[end].low == edges_[first].low &&
+             edges_[end].high == edges_[first].high)
+        ++end;
       if (end - first == 2 && edges_[first].polygon != edges_[first + 1].polygon) {
         pairs_.push_back(first);
         neighbours_[edges_[first].polygon].push_back(first);
@@ -80,7 +83,8 @@ class SurfaceMaker {
 
   bool joins(std::uint32_t seed, std::uint32_t polygon) const {
     if (scene_.polygons[polygon].material != scene_.polygons[seed].material) return false;
-    if (planes_[polygon].area <= 0 || glm::dot(planes_[polygon].normal, planes_[seed].normal) < 0.99) return false;
+    if (planes_[polygon].area <= 0 || glm::dot(planes_[polygon].normal, planes_[seed].normal) < 0.99)
+      return false;
     const double tolerance = std::max(weldDistance(scene_), 1e-5 * std::sqrt(planes_[polygon].area));
     const glm::dvec3 origin = welded_.positions[welded_.outline(seed)[0]];
     for (const std::uint32_t v : welded_.outline(polygon)) {
@@ -112,7 +116,8 @@ class SurfaceMaker {
     mesh_.surfaces.push_back(surface);
   }
 
-  // Axes along the outline edge that gives the smallest bounding rectangle: cells then follow walls and floors.
+  // Axes along the outline edge that gives the smallest bounding rectangle: cells then follow walls and
+  // floors.
   void makeChart(const std::vector<std::uint32_t>& members, Surface& surface) const {
     std::vector<std::pair<double, glm::dvec3>> candidates;
     for (const std::uint32_t p : members) {
@@ -125,8 +130,8 @@ class SurfaceMaker {
       }
     }
     const std::size_t tried = std::min<std::size_t>(candidates.size(), 16);
-    std::partial_sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(tried), candidates.end(),
-                      [](const auto& x, const auto& y) { return x.first < y.first; });
+    std::partial_sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(tried),
+                      candidates.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
     double best = INFINITY;
     for (std::size_t k = 0; k < tried; ++k) {
       const glm::dvec3 u = candidates[k].second, v = glm::cross(surface.normal, u);
@@ -151,9 +156,9 @@ class SurfaceMaker {
 
   bool onOutline(std::uint32_t a, std::uint32_t b, std::uint32_t surface) const {
     const EdgeUse key{std::min(a, b), std::max(a, b), 0, false};
-    const auto found = std::lower_bound(edges_.begin(), edges_.end(), key, [](const EdgeUse& x, const EdgeUse& y) {
-      return std::tie(x.low, x.high) < std::tie(y.low, y.high);
-    });
+    const auto found = std::lower_bound(
+        edges_.begin(), edges_.end(), key,
+        [](const EdgeUse& x, const EdgeUse& y) { return std::tie(x.low, x.high) < std::tie(y.low, y.high); });
     std::size_t uses = 0, own = 0;
     for (auto e = found; e != edges_.end() && e->low == key.low && e->high == key.high; ++e) {
       ++uses;
@@ -235,9 +240,9 @@ class SurfaceMaker {
   const WeldedScene& welded_;
   Mesh& mesh_;
   std::vector<Plane> planes_;
-  std::vector<EdgeUse> edges_;                       // sorted by (low, high)
-  std::vector<std::size_t> pairs_;                   // first of two uses of an edge that two polygons share
-  std::vector<std::vector<std::size_t>> neighbours_; // per polygon: entries of pairs_
+  std::vector<EdgeUse> edges_;                        // sorted by (low, high)
+  std::vector<std::size_t> pairs_;                    // first of two uses of an edge that two polygons share
+  std::vector<std::vector<std::size_t>> neighbours_;  // per polygon: entries of pairs_
   std::vector<std::uint32_t> surface_of_;
 };
 

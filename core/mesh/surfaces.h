@@ -9,8 +9,8 @@
 
 namespace unshot {
 
-/// Two surfaces that meet smoothly along an edge, so that vertices on it are shared. `flipped`: their windings disagree,
-/// the front of one continues in the back of the other.
+/// Two surfaces that meet smoothly along an edge, so that vertices on it are shared. `flipped`: their
+/// windings disagree, the front of one continues in the back of the other.
 struct SmoothPair {
   std::uint32_t a = 0, b = 0;
   bool flipped = false;
@@ -28,8 +28,8 @@ struct SurfaceTopology {
 };
 
 /// Fills mesh.surfaces (material, chart, area, triangles), mesh.triangles and mesh.positions.
-/// Polygons are joined only across edges that exactly two polygons share: where a third stands on the edge (a wall on a
-/// floor), light on one side is not light on the other.
+/// Polygons are joined only across edges that exactly two polygons share: where a third stands on the edge (a
+/// wall on a floor), light on one side is not light on the other.
 SurfaceTopology makeSurfaces(const Scene& scene, const WeldedScene& welded, Mesh& mesh);
 
 }  // namespace unshot

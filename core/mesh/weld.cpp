@@ -10,12 +10,15 @@
 namespace unshot {
 namespace {
 
-// Points hashed by cells of twice the merging distance, so that what lies within the distance of a point is in the cells
-// that its box touches: mostly one, at most eight.
+// Points hashed by cells of twice the merging distance, so that what lies within the distance of a point is
+// in the cells that its box touches: mostly one, at most eight.
 class PointHash {
  public:
   PointHash(std::span<const glm::dvec3> points, double distance)
-      : points_(points), distance_(distance), size_(std::max(2 * distance, 1e-300)), next_(points.size(), kNone) {
+      : points_(points),
+        distance_(distance),
+        size_(std::max(2 * distance, 1e-300)),
+        next_(points.size(), kNone) {
     std::size_t slots = 16;
     while (slots < 2 * points.size()) slots *= 2;
     head_.assign(slots, kNone);
@@ -44,7 +47,8 @@ class PointHash {
   std::size_t slot(const glm::dvec3& cell) const {
     std::uint64_t h = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      h = (h ^ (h >> 29) ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(cell[axis]))) * 0x9e3779b97f4a7c15ull;
+      h = (h ^ (h >> 29) ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(cell[axis]))) *
+          0x9e3779b97f4a7c15ull;
     }
     return static_cast<std::size_t>(h >> 20) & (head_.size() - 1);
   }
@@ -55,8 +59,8 @@ class PointHash {
 };
 
 // The corners of one edge from a to b with the vertices that lie on it between, in order; without b.
-void appendEdge(const std::vector<glm::dvec3>& positions, const PointTree& tree, std::uint32_t a, std::uint32_t b,
-                double distance, std::vector<std::uint32_t>& out) {
+void appendEdge(const std::vector<glm::dvec3>& positions, const PointTree& tree, std::uint32_t a,
+                std::uint32_t b, double distance, std::vector<std::uint32_t>& out) {
   out.push_back(a);
   const glm::dvec3 pa = positions[a], d = positions[b] - pa;
   const double length = glm::length(d);

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <limits>
+#include <utility>
 
 #include "base/colour.h"
 #include "gl/objects.h"
@@ -123,22 +125,82 @@ double distanceTo(const Mesh& mesh, std::uint32_t side, const glm::dvec3& eye, c
   return along == 0 ? 0 : glm::dot(surface.origin - eye, surface.normal) / along;
 }
 
-double medianPositive(std::span<const SideLook> looks) {
-  std::vector<double> values;
-  for (const SideLook& look : looks) {
-    if (look.luminance > 0 && !look.emits) values.push_back(look.luminance);
+// Whether the ray from `eye` meets the box.
+bool meets(const Bounds& box, const glm::dvec3& eye, const glm::dvec3& ray) {
+  double from = 0;
+  double to = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    if (ray[i] == 0) {
+      if (eye[i] < box.min[i] || eye[i] > box.max[i]) return false;
+      continue;
+    }
+    const double a = (box.min[i] - eye[i]) / ray[i];
+    const double b = (box.max[i] - eye[i]) / ray[i];
+    from = std::max(from, std::min(a, b));
+    to = std::min(to, std::max(a, b));
   }
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return from <= to;
+}
+
+// Half of the area (lamps aside) is brighter than this; 0 while the light has not reached half of it.
+double medianLuminance(std::span<const SideLook> looks) {
+  std::vector<std::pair<double, double>> values;
+  double total = 0;
+  for (const SideLook& look : looks) {
+    if (look.emits) continue;
+    values.emplace_back(look.luminance, look.area);
+    total += look.area;
+  }
+  std::sort(values.begin(), values.end());
+  double below = 0;
+  for (const auto& [y, area] : values) {
+    below += area;
+    if (below >= 0.5 * total) return y;
+  }
+  return 0;
+}
+
+// The figures that follow from how many pixels each side has.
+ViewFigures judgeSides(std::span<const std::uint32_t> pixels_of, double all_pixels, const Mesh& mesh,
+                       std::span<const SideLook> looks) {
+  double covered = 0, backs = 0, lamps = 0, seen = 0, total = 0, log_count = 0, log_sum = 0, log_squares = 0;
+  double entropy = 0;  // of the pixels over the sides: log covered - sum n log n / covered
+  for (std::size_t s = 0; s < pixels_of.size(); ++s) {
+    const SideLook& look = looks[s];
+    const double n = pixels_of[s];
+    total += look.area;
+    if (n == 0) continue;
+    covered += n;
+    seen += look.area;
+    entropy -= n * std::log(n);
+    if (mesh.sides[s].back && !look.emits) backs += n;
+    if (look.emits) lamps += n;
+    if (look.luminance > 0 && !look.emits) {
+      const double l = std::log(look.luminance);
+      log_count += n;
+      log_sum += n * l;
+      log_squares += n * l * l;
+    }
+  }
+  ViewFigures figures;
+  if (covered == 0) return figures;
+  figures.covered = covered / all_pixels;
+  figures.backs = backs / covered;
+  figures.lamps = std::sqrt(std::min(1.0, lamps / (0.01 * all_pixels)));
+  figures.seen = total > 0 ? seen / total : 0;
+  figures.variety = std::clamp((entropy / covered + std::log(covered)) / std::log(64.0), 0.0, 1.0);
+  if (log_count > 0) {
+    const double mean = log_sum / log_count;
+    figures.contrast = std::min(1.0, std::sqrt(std::max(0.0, log_squares / log_count - mean * mean)));
+  }
+  return figures;
 }
 
 double score(const ViewFigures& figures, const ViewFigures& best) {
   const auto relative = [](double value, double largest) { return largest > 0 ? value / largest : 0; };
   return figures.lit + 0.3 * figures.covered + 0.4 * relative(figures.variety, best.variety) +
          0.7 * relative(figures.seen, best.seen) + 0.3 * figures.contrast +
-         0.3 * relative(figures.lamps, best.lamps) - 0.8 * figures.blocked;
+         0.3 * relative(figures.lamps, best.lamps) - 0.8 * figures.blocked - 0.6 * figures.backs;
 }
 
 }  // namespace
@@ -197,7 +259,7 @@ std::vector<CameraCandidate> cameraCandidates(const Bounds& bounds, const Automa
       const double up_reach = glm::dot(glm::abs(up), half);
       Camera camera;
       camera.eye = centre + 0.88 * reach * way + height * up_reach * up;
-      camera.at = centre - 0.3 * reach * way - 0.25 * up_reach * up;
+      camera.at = centre - 0.5 * reach * way + (0.4 * height - 0.1) * up_reach * up;
       camera.up = options.up;
       camera.fov_deg = inside_fov;
       candidates.push_back({camera, 0.0});
@@ -215,59 +277,31 @@ ViewFigures judgeView(std::span<const std::uint32_t> ids, int width, int height,
   const Bounds bounds{mesh.bounds_min, mesh.bounds_max};
   const ViewBasis basis = viewBasis(camera);
   const double tan_y = std::tan(0.5 * camera.fov_deg * glm::pi<double>() / 180);
-  const double aspect = static_cast<double>(width) / height;
-  const double median = medianPositive(looks);
+  const double tan_x = tan_y * width / height;
+  const double median = medianLuminance(looks);
   std::vector<std::uint32_t> pixels_of(mesh.sides.size(), 0);
-  double covered = 0, lit = 0, lamps = 0, blocked = 0, log_count = 0, log_sum = 0, log_squares = 0;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const std::uint32_t id =
-          ids[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
-      if (id == 0) continue;
-      const SideLook& look = looks[id - 1];
-      ++pixels_of[id - 1];
-      ++covered;
-      if (look.emits) ++lamps;
-      if (median == 0 || look.luminance > kDark * median) ++lit;
-      if (look.luminance > 0 && !look.emits) {
-        const double l = std::log(look.luminance);
-        ++log_count;
-        log_sum += l;
-        log_squares += l * l;
-      }
-      const glm::dvec3 ray =
-          glm::normalize(basis.forward + tan_y * (aspect * ((2 * x + 1.0) / width - 1) * basis.right +
-                                                  ((2 * y + 1.0) / height - 1) * basis.up));
-      if (distanceTo(mesh, id - 1, camera.eye, ray) < kNear * bounds.diagonal()) ++blocked;
-    }
+  double in_bounds = 0, lit = 0, blocked = 0;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const double x = 2 * (static_cast<double>(i % static_cast<std::size_t>(width)) + 0.5) / width - 1;
+    const double y = 2 * (static_cast<double>(i / static_cast<std::size_t>(width)) + 0.5) / height - 1;
+    const glm::dvec3 ray = glm::normalize(basis.forward + tan_x * x * basis.right + tan_y * y * basis.up);
+    if (ids[i] != 0 || meets(bounds, camera.eye, ray)) ++in_bounds;
+    if (ids[i] == 0) continue;
+    const std::uint32_t side = ids[i] - 1;
+    ++pixels_of[side];
+    if (median == 0 || looks[side].luminance > kDark * median) ++lit;
+    if (distanceTo(mesh, side, camera.eye, ray) < kNear * bounds.diagonal()) ++blocked;
   }
-  ViewFigures figures;
-  if (covered == 0) return figures;
-  const double all = static_cast<double>(width) * height;
-  figures.covered = covered / all;
-  figures.lit = lit / all;
-  figures.blocked = blocked / all;
-  figures.lamps = std::sqrt(std::min(1.0, lamps / (0.01 * all)));
-  if (log_count > 0) {
-    const double mean = log_sum / log_count;
-    figures.contrast = std::min(1.0, std::sqrt(std::max(0.0, log_squares / log_count - mean * mean)));
-  }
-  double entropy = 0, seen = 0, total = 0;
-  for (std::size_t s = 0; s < pixels_of.size(); ++s) {
-    total += looks[s].area;
-    if (pixels_of[s] == 0) continue;
-    const double share = pixels_of[s] / covered;
-    entropy -= share * std::log(share);
-    seen += looks[s].area * std::min(1.0, pixels_of[s] / 4.0);
-  }
-  figures.variety = std::min(1.0, entropy / std::log(64.0));
-  figures.seen = total > 0 ? seen / total : 0;
+  ViewFigures figures = judgeSides(pixels_of, static_cast<double>(width) * height, mesh, looks);
+  if (in_bounds > 0) figures.lit = lit / in_bounds;
+  figures.blocked = blocked / (static_cast<double>(width) * height);
   return figures;
 }
 
 Camera automaticCamera(gl::Context& context, const Snapshot& snapshot,
                        const AutomaticCameraOptions& options) {
   const Mesh& mesh = *snapshot.mesh;
+  if (mesh.sides.empty()) return {};  // nothing to look at
   std::vector<CameraCandidate> candidates = cameraCandidates({mesh.bounds_min, mesh.bounds_max}, options);
   const StateGuard guard(context.functions());
   const int width = std::clamp(static_cast<int>(std::lround(kLookHeight * options.aspect)), 8, 1024);

@@ -42,12 +42,13 @@ std::vector<SideLook> sideLooks(const Snapshot& snapshot);
 
 /// What a view shows; the parts are in 0..1.
 struct ViewFigures {
-  double covered = 0;   ///< pixels with something in them
-  double lit = 0;       ///< pixels with something that is not dark for this scene
+  double covered = 0;  ///< pixels with something in them, of the frame
+  double lit = 0;  ///< pixels with something that is not dark for this scene, of those where the bounds are
   double variety = 0;   ///< effective number of sides in view, on a log scale
   double seen = 0;      ///< area of the sides in view, of all
   double contrast = 0;  ///< spread of the light
   double lamps = 0;     ///< lamps in view
+  double backs = 0;     ///< of the covered pixels: back sides (lamps aside), seldom meant to be seen
   double blocked = 0;   ///< pixels with something right before the eye
 };
 

@@ -24,7 +24,7 @@ struct GpuVertex {
 };
 
 float finiteValue(double v) {
-  return std::isnan(v) ? 0.0f : static_cast<float>(std::clamp(v, -kLargestValue, kLargestValue));
+  return std::isfinite(v) ? static_cast<float>(std::clamp(v, -kLargestValue, kLargestValue)) : 0.0f;
 }
 
 glm::vec3 finiteValue(const glm::dvec3& v) { return {finiteValue(v.x), finiteValue(v.y), finiteValue(v.z)}; }
@@ -188,7 +188,7 @@ const LinearTarget& SceneView::target(LinearTarget& kept, int width, int height)
 }
 
 void SceneView::drawLinear(const Camera& camera, double aspect, const FrameWindow& window,
-                           const ViewOptions& options) {
+                           const ViewOptions& options, bool with_edges) {
   const gl::Functions& fn = context_.functions();
   const DisplayMode& mode = displayMode(options.display);
   setPassState(fn, true);
@@ -214,7 +214,7 @@ void SceneView::drawLinear(const Camera& camera, double aspect, const FrameWindo
   fn.BindVertexArray(vertex_array_.id());
   fn.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, triangles_.id());
   fn.DrawElements(GL_TRIANGLES, triangle_index_count_, GL_UNSIGNED_INT, nullptr);
-  if (mode.edges) {
+  if (mode.edges && with_edges) {
     uploadEdges();
     fn.Uniform1i(program.uniform("edges"), 1);
     fn.Enable(GL_CLIP_DISTANCE0);
@@ -232,7 +232,7 @@ double SceneView::exposureFor(const Camera& camera, double aspect, const ViewOpt
   const LinearTarget& small = target(
       small_, std::max(1, static_cast<int>(std::lround(kMeteredPixels / height))), static_cast<int>(height));
   small.bind();
-  drawLinear(camera, aspect, {}, options);
+  drawLinear(camera, aspect, {}, options, false);
   return automaticExposure(small.read());
 }
 

@@ -52,7 +52,8 @@ class SceneView {
   /// tone-mapped.
   double exposureFor(const Camera& camera, double aspect, const ViewOptions& options);
   /// Clears the bound linear target and draws a part of the picture, over all of its viewport.
-  void drawLinear(const Camera& camera, double aspect, const FrameWindow& window, const ViewOptions& options);
+  void drawLinear(const Camera& camera, double aspect, const FrameWindow& window, const ViewOptions& options,
+                  bool with_edges = true);
   /// Shows `samples` (options.supersampling along a pixel's side) in `viewport` of the bound framebuffer.
   void resolve(const LinearTarget& samples, double automatic_exposure, const ViewOptions& options,
                const Viewport& viewport);

@@ -27,7 +27,8 @@ void SceneBuilder::polygon(std::uint32_t material, const std::vector<glm::dvec3>
   scene_.triangle_count += corners.size() - 2;
 }
 
-void SceneBuilder::quad(std::uint32_t material, const glm::dvec3& corner, const glm::dvec3& a, const glm::dvec3& b) {
+void SceneBuilder::quad(std::uint32_t material, const glm::dvec3& corner, const glm::dvec3& a,
+                        const glm::dvec3& b) {
   polygon(material, {corner, corner + a, corner + a + b, corner + b});
 }
 
@@ -92,17 +93,20 @@ Scene perpendicularSquares(double reflectance) {
 
 namespace {
 
-// A sphere of `rings` latitudes and 2 rings longitudes, its radius set so that the polyhedron has the sphere's area.
+// A sphere of `rings` latitudes and 2 rings longitudes, its radius set so that the polyhedron has the
+// sphere's area.
 void addSphere(SceneBuilder& b, std::uint32_t material, double radius, int rings, bool inwards) {
   const auto at = [&](int ring, int turn) {
     const double polar = std::numbers::pi * ring / rings, azimuth = std::numbers::pi * turn / rings;
-    return glm::dvec3(std::sin(polar) * std::cos(azimuth), std::cos(polar), std::sin(polar) * std::sin(azimuth));
+    return glm::dvec3(std::sin(polar) * std::cos(azimuth), std::cos(polar),
+                      std::sin(polar) * std::sin(azimuth));
   };
   std::vector<std::vector<glm::dvec3>> faces;
   double area = 0;
   for (int ring = 0; ring < rings; ++ring) {
     for (int turn = 0; turn < 2 * rings; ++turn) {
-      std::vector<glm::dvec3> face{at(ring, turn), at(ring, turn + 1), at(ring + 1, turn + 1), at(ring + 1, turn)};
+      std::vector<glm::dvec3> face{at(ring, turn), at(ring, turn + 1), at(ring + 1, turn + 1),
+                                   at(ring + 1, turn)};
       if (ring == 0) face.erase(face.begin());
       if (ring + 1 == rings) face.erase(face.begin() + 2);
       if (inwards) std::reverse(face.begin(), face.end());
@@ -135,10 +139,10 @@ Scene litAndDarkRoom() {
   const auto white = b.material("white", glm::dvec3(0.8));
   const auto light = b.material("light", glm::dvec3(0.0), glm::dvec3(10.0));
   for (const double x : {0.0, 1.0}) {
-    b.quad(white, {x, 0, 0}, {0, 0, 1}, {1, 0, 0});   // floor
-    b.quad(white, {x, 1, 0}, {1, 0, 0}, {0, 0, 1});   // ceiling
-    b.quad(white, {x, 0, 0}, {1, 0, 0}, {0, 1, 0});   // back
-    b.quad(white, {x, 0, 1}, {0, 1, 0}, {1, 0, 0});   // front
+    b.quad(white, {x, 0, 0}, {0, 0, 1}, {1, 0, 0});  // floor
+    b.quad(white, {x, 1, 0}, {1, 0, 0}, {0, 0, 1});  // ceiling
+    b.quad(white, {x, 0, 0}, {1, 0, 0}, {0, 1, 0});  // back
+    b.quad(white, {x, 0, 1}, {0, 1, 0}, {1, 0, 0});  // front
   }
   for (const double x : {0.0, 1.0, 2.0}) b.quad(white, {x, 0, 0}, {0, 1, 0}, {0, 0, 1});
   b.quad(light, {0.4, 0.9, 0.4}, {0.2, 0, 0}, {0, 0, 0.2});

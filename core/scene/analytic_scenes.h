@@ -24,7 +24,8 @@ class SceneBuilder {
   Scene scene_;
 };
 
-/// Inside of the cube [0, 1]^3, fronts inwards. `materials`: floor y = 0, ceiling y = 1, walls z = 0, x = 1, z = 1, x = 0.
+/// Inside of the cube [0, 1]^3, fronts inwards. `materials`: floor y = 0, ceiling y = 1, walls z = 0, x = 1,
+/// z = 1, x = 0.
 Scene cubeScene(const std::array<Material, 6>& materials);
 
 /// Closed cube, every face alike: B = E / (1 - rho).
@@ -39,11 +40,12 @@ Scene parallelSquares(double reflectance);
 /// Unit squares along a common edge at a right angle; one emits 1 and is black, the other reflects rho.
 Scene perpendicularSquares(double reflectance);
 
-/// Spheres about the origin of radii 0.5 (E1, rho1, seen from outside) and 1 (E2, rho2, seen from inside), as polyhedra of
-/// 2 rings^2 quadrilaterals and triangles each, scaled to the area of the true sphere.
+/// Spheres about the origin of radii 0.5 (E1, rho1, seen from outside) and 1 (E2, rho2, seen from inside), as
+/// polyhedra of 2 rings^2 quadrilaterals and triangles each, scaled to the area of the true sphere.
 Scene concentricSpheres(double rho1, double emission1, double rho2, double emission2, int rings);
 
-/// Two rooms of 1 x 1 x 1 side by side with a wall between; every polygon ends at the wall. A light in the room x < 1.
+/// Two rooms of 1 x 1 x 1 side by side with a wall between; every polygon ends at the wall. A light in the
+/// room x < 1.
 Scene litAndDarkRoom();
 
 }  // namespace unshot

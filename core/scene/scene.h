@@ -14,7 +14,8 @@ namespace unshot {
 
 inline constexpr std::uint32_t kNone = 0xffffffffu;
 
-/// Diffuse material. Reflectance 0..1 per channel; emission E [W/m^2] per channel, the unit that B is shown in.
+/// Diffuse material. Reflectance 0..1 per channel; emission E [W/m^2] per channel, the unit that B is shown
+/// in.
 struct Material {
   std::string name;
   glm::dvec3 reflectance{0.5};
@@ -29,8 +30,8 @@ struct Corner {
   std::uint32_t normal = kNone;
 };
 
-/// A planar simple polygon (concave and collinear corners allowed; its corners run counter-clockwise seen from its front).
-/// A face of the file that is not planar has become several polygons that share `face`.
+/// A planar simple polygon (concave and collinear corners allowed; its corners run counter-clockwise seen
+/// from its front). A face of the file that is not planar has become several polygons that share `face`.
 struct Polygon {
   std::uint32_t first_corner = 0;
   std::uint32_t corner_count = 0;
@@ -40,8 +41,8 @@ struct Polygon {
   std::uint32_t line = 0;             ///< line of the face in the file, counted from 1
 };
 
-/// The scene. Positions are relative to `frame_origin` (file position = frame_origin + position), so that a scene far from
-/// the file's origin keeps its digits.
+/// The scene. Positions are relative to `frame_origin` (file position = frame_origin + position), so that a
+/// scene far from the file's origin keeps its digits.
 struct Scene {
   std::filesystem::path path;
   std::string name;

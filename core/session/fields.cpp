@@ -34,14 +34,15 @@ std::vector<glm::vec3> meanOverElements(const Mesh& mesh, const std::vector<glm:
     sum[mesh.triangle_element[t]] += a / 3 * (field[corner[0]] + field[corner[1]] + field[corner[2]]);
   }
   std::vector<glm::vec3> out(mesh.element_count);
-  for (std::size_t e = 0; e < out.size(); ++e) out[e] = area[e] > 0 ? glm::vec3(sum[e] / area[e]) : glm::vec3(0.0f);
+  for (std::size_t e = 0; e < out.size(); ++e)
+    out[e] = area[e] > 0 ? glm::vec3(sum[e] / area[e]) : glm::vec3(0.0f);
   return out;
 }
 
 }  // namespace
 
-Snapshot makeFields(std::shared_ptr<const Mesh> mesh_in, const Transport& transport, const RadiosityState& state,
-                    const AmbientTerm& ambient) {
+Snapshot makeFields(std::shared_ptr<const Mesh> mesh_in, const Transport& transport,
+                    const RadiosityState& state, const AmbientTerm& ambient) {
   Snapshot out;
   out.mesh = std::move(mesh_in);
   const Mesh& mesh = *out.mesh;

@@ -1,4 +1,5 @@
-// The fields of a snapshot from the state of a solve: irradiance at vertices, the ambient estimate, unshot radiosity.
+// The fields of a snapshot from the state of a solve: irradiance at vertices, the ambient estimate, unshot
+// radiosity.
 #pragma once
 
 #include "formfactor/transport.h"

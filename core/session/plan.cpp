@@ -10,18 +10,21 @@ std::vector<PlanDecision> makePlan(const Scene& scene, const Mesh& mesh, const s
   if (unlit > 0) {
     double area = -mesh.lit_area;
     for (const Surface& s : mesh.surfaces) area += 2 * s.area;
-    out.push_back({"elements on " + std::to_string(unlit) + " of " + std::to_string(all_sides) + " surface sides",
-                   "nothing of the scene lies in front of them, so no light can reach them",
-                   std::to_string(static_cast<int>(100 * area / (area + mesh.lit_area) + 0.5)) + " % of the elements"});
+    out.push_back(
+        {"elements on " + std::to_string(unlit) + " of " + std::to_string(all_sides) + " surface sides",
+         "nothing of the scene lies in front of them, so no light can reach them",
+         std::to_string(static_cast<int>(100 * area / (area + mesh.lit_area) + 0.5)) + " % of the elements"});
   }
   if (scene.triangle_count > mesh.surfaces.size()) {
     out.push_back({"borders inside " + std::to_string(mesh.surfaces.size()) + " surfaces",
-                   std::to_string(scene.triangle_count) + " triangles of the scene join into them: same plane and material",
+                   std::to_string(scene.triangle_count) +
+                       " triangles of the scene join into them: same plane and material",
                    "elements as fine as the light needs, not as the input was cut"});
   }
   if (form_factors == "closed-form" && nothingCanOcclude(mesh)) {
     out.push_back({"occlusion tests, hemicubes and OpenGL for the solution",
-                   "every surface has the whole scene on one side of its plane, so nothing can stand between two points",
+                   "every surface has the whole scene on one side of its plane, so nothing can stand between "
+                   "two points",
                    "all pictures; the form factors are exact"});
   }
   std::size_t black = 0;
@@ -29,8 +32,9 @@ std::vector<PlanDecision> makePlan(const Scene& scene, const Mesh& mesh, const s
     black += mesh.sides[side].reflectance == glm::dvec3(0.0) && mesh.sides[side].emission == glm::dvec3(0.0);
   }
   if (black > 0) {
-    out.push_back({"shots from " + std::to_string(black) + " of " + std::to_string(mesh.patch_count) + " patches",
-                   "they are black and send nothing", "their columns"});
+    out.push_back(
+        {"shots from " + std::to_string(black) + " of " + std::to_string(mesh.patch_count) + " patches",
+         "they are black and send nothing", "their columns"});
   }
   return out;
 }

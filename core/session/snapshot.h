@@ -19,8 +19,8 @@ struct Measures {
   double unshot_fraction = 1;  ///< sum A |U| / sum A E over patches and channels
 };
 
-/// One state of a solve. Fields are per display vertex of `mesh`; radiosity is B = E + rho (irradiance + ambient), with rho
-/// and E of the vertex's material and side (mesh->sides[vertex.side]).
+/// One state of a solve. Fields are per display vertex of `mesh`; radiosity is B = E + rho (irradiance +
+/// ambient), with rho and E of the vertex's material and side (mesh->sides[vertex.side]).
 struct Snapshot {
   std::shared_ptr<const Mesh> mesh;
   std::vector<glm::vec3> irradiance;          ///< H [W/m^2], one per vertex

@@ -15,7 +15,8 @@
 namespace unshot {
 namespace {
 
-// A mode that takes this many passes over all patches without losing this share of the unshot power will not arrive.
+// A mode that takes this many passes over all patches without losing this share of the unshot power will not
+// arrive.
 constexpr std::uint64_t kStagnationPasses = 20;
 constexpr double kStagnationShare = 1e-4;
 
@@ -49,7 +50,8 @@ struct Solve::Impl {
   double watched_fraction = 1;
   std::uint64_t watched_shots = 0;
 
-  Impl(Scene scene_in, SolveOptions options_in) : options(std::move(options_in)), scene(std::move(scene_in)) {}
+  Impl(Scene scene_in, SolveOptions options_in)
+      : options(std::move(options_in)), scene(std::move(scene_in)) {}
 
   void prepare(const std::function<gl::Context&()>& gl);
   void makeTransport(const std::function<gl::Context&()>& gl);
@@ -65,7 +67,8 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl) {
   }
   const double start = wallSeconds();
   cpu_start = cpuSeconds();
-  mesh = std::make_shared<Mesh>(buildMesh(scene, {options.elements, options.element_size, options.emit_front_only}));
+  mesh = std::make_shared<Mesh>(
+      buildMesh(scene, {options.elements, options.element_size, options.emit_front_only}));
   seconds.mesh = wallSeconds() - start;
 
   const double plan_start = wallSeconds();
@@ -81,7 +84,8 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl) {
   const double cpu_before_setup = cpuSeconds();
   makeTransport(gl);
   cpu_setup = cpuSeconds() - cpu_before_setup;
-  state = std::make_unique<RadiosityState>(*transport, perPatch(*mesh, &Side::emission), perPatch(*mesh, &Side::reflectance));
+  state = std::make_unique<RadiosityState>(*transport, perPatch(*mesh, &Side::emission),
+                                           perPatch(*mesh, &Side::reflectance));
   ambient = std::make_unique<AmbientTerm>(mesh->patch_count);
   solve_start = wallSeconds();
   if (state->emittedPower() <= 0) {
@@ -95,7 +99,8 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl) {
 void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl) {
   const FormFactorMethodRow& row = findChoice(formFactorMethods(), form_factors_key, "form-factor method");
   const std::string unsuited = row.unsuited(*mesh);
-  if (!unsuited.empty()) diagnostics.push_back({Severity::kWarning, "unsuited-method", unsuited, {}, "--form-factors auto"});
+  if (!unsuited.empty())
+    diagnostics.push_back({Severity::kWarning, "unsuited-method", unsuited, {}, "--form-factors auto"});
   FormFactorSetup setup;
   setup.mesh = mesh.get();
   setup.seed = options.seed;
@@ -106,8 +111,11 @@ void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl) {
     return context;
   };
   std::unique_ptr<FormFactorMethod> method = row.make(setup);
+  if (!method->note().empty())
+    diagnostics.push_back({Severity::kNote, "form-factor-note", method->note(), {}, {}});
   Receivers receivers = makeReceivers(*mesh, method->receiverKind());
-  transport = std::make_unique<Transport>(std::move(method), std::move(receivers), mesh->patch_area, options.kept_bytes);
+  transport = std::make_unique<Transport>(std::move(method), std::move(receivers), mesh->patch_area,
+                                          options.kept_bytes);
 }
 
 void Solve::Impl::stop(SolveState how, std::string why) {
@@ -166,7 +174,8 @@ void Solve::step() {
   if (s.progress_state == SolveState::kRunning) s.checkStagnation();
   // A curve needs no more points than a plot has pixels: each is a hundredth further than the last.
   const std::uint64_t last = s.history.back().measures.shots;
-  if (s.progress_state != SolveState::kRunning || s.measures.shots >= last + std::max<std::uint64_t>(1, last / 100)) {
+  if (s.progress_state != SolveState::kRunning ||
+      s.measures.shots >= last + std::max<std::uint64_t>(1, last / 100)) {
     s.history.push_back({s.measures});
   }
 }
@@ -198,7 +207,8 @@ EnergyBalance Solve::energy() const {
   EnergyBalance out;
   const Receivers& receivers = s.transport->receivers();
   for (std::size_t v = 0; v < receivers.size(); ++v) {
-    const glm::dvec3 absorbed = receivers.area[v] * (1.0 - receivers.reflectance[v]) * s.state->irradiance()[v];
+    const glm::dvec3 absorbed =
+        receivers.area[v] * (1.0 - receivers.reflectance[v]) * s.state->irradiance()[v];
     out.absorbed += absorbed.x + absorbed.y + absorbed.z;
   }
   for (std::size_t q = 0; q < s.state->patchCount(); ++q) {

@@ -28,8 +28,8 @@ struct SolveOptions {
   std::optional<double> max_seconds;
   std::optional<std::uint64_t> max_shots;
   std::uint64_t seed = 1;
-  std::uint32_t hemicube_resolution = 0;              ///< pixels along the top face; 0: chosen
-  std::size_t kept_bytes = std::size_t{1} << 30;      ///< memory for kept columns of K [bytes]
+  std::uint32_t hemicube_resolution = 0;          ///< pixels along the top face; 0: chosen
+  std::size_t kept_bytes = std::size_t{1} << 30;  ///< memory for kept columns of K [bytes]
 };
 
 /// Something the solve left out or chose by looking at the scene, with its reason (law 7).
@@ -63,15 +63,16 @@ enum class SolveState { kRunning, kConverged, kLimit, kInterrupted, kFailed };
 /// The solve. All calls come from one thread, on which the GL context (if any) is current.
 class Solve {
  public:
-  /// `gl` is called at most once, only when the form-factor method needs GL; the context stays the caller's and outlives
-  /// the Solve. Meshes the scene and sets the method up. Throws Error (kUsage for unknown keys or impossible options).
+  /// `gl` is called at most once, only when the form-factor method needs GL; the context stays the caller's
+  /// and outlives the Solve. Meshes the scene and sets the method up. Throws Error (kUsage for unknown keys
+  /// or impossible options).
   Solve(Scene scene, SolveOptions options, std::function<gl::Context&()> gl);
   ~Solve();
   Solve(const Solve&) = delete;
   Solve& operator=(const Solve&) = delete;
 
-  /// One step of the iteration mode (a shot, or a part of a sweep). Does nothing once state() is not kRunning.
-  /// A step takes milliseconds to a few tens of them, so that limits and interruption act soon.
+  /// One step of the iteration mode (a shot, or a part of a sweep). Does nothing once state() is not
+  /// kRunning. A step takes milliseconds to a few tens of them, so that limits and interruption act soon.
   void step();
 
   SolveState state() const;
@@ -95,7 +96,7 @@ class Solve {
   EnergyBalance energy() const;
   const PhaseSeconds& seconds() const;
   std::size_t keptBytes() const;  ///< memory held by kept columns
-  std::uint64_t drawn() const;                 ///< hemicubes drawn
+  std::uint64_t drawn() const;    ///< hemicubes drawn
   /// "error", "max_seconds", "max_shots", "interrupted", "no light", or what failed.
   const std::string& stoppedBy() const;
 

@@ -39,7 +39,8 @@ std::vector<glm::dvec3> AmbientTerm::values(const RadiosityState& state) const {
   for (std::uint32_t q = 0; q < n; ++q) {
     const std::uint32_t g = find(q);
     for (int c = 0; c < 3; ++c) {
-      // Where everything reflects all light the series has no sum; a thousand bounces are as many as are shown.
+      // Where everything reflects all light the series has no sum; a thousand bounces are as many as are
+      // shown.
       const double absorbed = std::max(1 - reflected[g][c] / area[g], 1e-3);
       out[q][c] = power[g][c] / area[g] / absorbed;
     }

@@ -1,7 +1,9 @@
-// The ambient term (Cohen et al. 1988): an estimate of what unshot light will still add to the irradiance, for display only.
+// The ambient term (Cohen et al. 1988): an estimate of what unshot light will still add to the irradiance,
+// for display only.
 //
-// Per channel and per group of patches known to see each other, sum A U / sum A / (1 - mean rho), means weighted by area.
-// Groups are joined as columns show who sees whom, so a room that no light has reached gets nothing.
+// Per channel and per group of patches known to see each other, sum A U / sum A / (1 - mean rho), means
+// weighted by area. Groups are joined as columns show who sees whom, so a room that no light has reached gets
+// nothing.
 #pragma once
 
 #include <vector>

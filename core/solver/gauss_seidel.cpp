@@ -1,5 +1,5 @@
-// Gauss-Seidel iteration: patches in turn, each shooting all that it holds by then. Relaxing equation q of (I - M) S = R E
-// changes S_q by U_q, since a flat patch does not see itself (M_qq = 0).
+// Gauss-Seidel iteration: patches in turn, each shooting all that it holds by then. Relaxing equation q of (I
+// - M) S = R E changes S_q by U_q, since a flat patch does not see itself (M_qq = 0).
 #include "solver/modes.h"
 
 namespace unshot {

@@ -1,5 +1,5 @@
-// Jacobi iteration, bounce by bounce: a sweep shoots d = U as it stood when the sweep began, patch by patch, so that after t
-// sweeps B = E + M E + ... + M^t E. A patch that holds nothing is passed over.
+// Jacobi iteration, bounce by bounce: a sweep shoots d = U as it stood when the sweep began, patch by patch,
+// so that after t sweeps B = E + M E + ... + M^t E. A patch that holds nothing is passed over.
 #include "solver/modes.h"
 
 namespace unshot {

@@ -1,4 +1,5 @@
-// The table of iteration modes. A mode only chooses what is shot next; a new mode is its own file and a row here.
+// The table of iteration modes. A mode only chooses what is shot next; a new mode is its own file and a row
+// here.
 #pragma once
 
 #include <memory>
@@ -15,7 +16,8 @@ namespace unshot {
 class IterationMode {
  public:
   virtual ~IterationMode() = default;
-  /// One shot: chooses a patch, gets its column, applies it. Returns the patch, or none where nothing is left to shoot.
+  /// One shot: chooses a patch, gets its column, applies it. Returns the patch, or none where nothing is left
+  /// to shoot.
   virtual std::optional<std::uint32_t> step(RadiosityState& state, Transport& transport) = 0;
 };
 

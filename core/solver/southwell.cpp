@@ -1,5 +1,6 @@
-// Progressive refinement: Southwell's relaxation (1940) applied to radiosity (Cohen, Chen, Wallace and Greenberg 1988;
-// Gortler, Cohen and Slusallek 1994). The patch with the largest A_q |U_q|, channels summed, shoots all of U_q.
+// Progressive refinement: Southwell's relaxation (1940) applied to radiosity (Cohen, Chen, Wallace and
+// Greenberg 1988; Gortler, Cohen and Slusallek 1994). The patch with the largest A_q |U_q|, channels summed,
+// shoots all of U_q.
 #include <cmath>
 
 #include "solver/modes.h"

@@ -1,8 +1,8 @@
 // The state of a solve: S, H, U, in double, per channel.
 //
-// S_q is the radiosity that patch q has shot so far, H = K S the irradiance received, B = E + rho H, and U = R B - S what is
-// unshot, R the area mean over a patch. U is the residual of S = R (E + rho K S), so U = 0 is the solution; every mode only
-// chooses what to shoot next.
+// S_q is the radiosity that patch q has shot so far, H = K S the irradiance received, B = E + rho H, and U =
+// R B - S what is unshot, R the area mean over a patch. U is the residual of S = R (E + rho K S), so U = 0 is
+// the solution; every mode only chooses what to shoot next.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -17,7 +17,8 @@ namespace unshot {
 class RadiosityState {
  public:
   /// Nothing shot yet: S = 0, H = 0, U = E. `emission` and `reflectance` one per patch.
-  RadiosityState(const Transport& transport, std::vector<glm::dvec3> emission, std::vector<glm::dvec3> reflectance);
+  RadiosityState(const Transport& transport, std::vector<glm::dvec3> emission,
+                 std::vector<glm::dvec3> reflectance);
 
   std::size_t patchCount() const { return shot_.size(); }
 
@@ -28,13 +29,15 @@ class RadiosityState {
   const std::vector<glm::dvec3>& reflectance() const { return reflectance_; }  ///< rho, one per patch
   const std::vector<glm::dvec3>& shot() const { return shot_; }                ///< S, one per patch [W/m^2]
   const std::vector<glm::dvec3>& unshot() const { return unshot_; }            ///< U, one per patch [W/m^2]
-  const std::vector<glm::dvec3>& irradiance() const { return irradiance_; }    ///< H, one per receiver [W/m^2]
-  const std::vector<double>& area() const { return area_; }                    ///< one per patch [m^2]
+  const std::vector<glm::dvec3>& irradiance() const { return irradiance_; }  ///< H, one per receiver [W/m^2]
+  const std::vector<double>& area() const { return area_; }                  ///< one per patch [m^2]
 
   double emittedPower() const { return emitted_power_; }  ///< sum A E over patches and channels [W]
   double unshotPower() const;                             ///< sum A |U| over patches and channels [W]
   double escapedPower() const { return escaped_power_; }  ///< shot into nothing so far, over channels [W]
-  double defectPower() const { return defect_power_; }    ///< shot and lost by approximation so far, over channels [W]
+  double defectPower() const {
+    return defect_power_;
+  }  ///< shot and lost by approximation so far, over channels [W]
 
  private:
   const Transport& transport_;

@@ -90,7 +90,8 @@ class RoomBuilder {
         mesh.vertices.push_back({glm::vec3(p * s), glm::vec3(surface.normal), material, side_index});
         snapshot_.irradiance.push_back(irradianceAt(p, surface.normal));
         snapshot_.ambient.push_back(glm::vec3(float(0.1 * options_.light)));
-        snapshot_.unshot.push_back(0.5f * snapshot_.irradiance.back());
+        snapshot_.unshot.push_back(glm::vec3(mesh.materials[material].reflectance * (0.1 + p.y)) *
+                                   snapshot_.irradiance.back());
       }
     }
     for (std::uint32_t j = 0; j < n; ++j) {
