@@ -10,6 +10,7 @@
 
 #include "mesh/build.h"
 #include "mesh/clip.h"
+#include "support/dice.h"
 #include "support/mesh_checks.h"
 #include "support/test_scenes.h"
 
@@ -144,6 +145,24 @@ TEST(Contacts, CutAFloorAlongAWallThatEndsInItsMiddle) {
     const auto chart = [&](double x) { return s.chart(glm::dvec3(x, y, z) - mesh.frame_origin); };
     EXPECT_NE(elementAt(mesh, s, chart(1.04)), elementAt(mesh, s, chart(1.06))) << z;
     EXPECT_EQ(at(1.04), elementAt(mesh, s, chart(1.04)));
+  }
+}
+
+// Walls shorter than a cell: some end inside one, some cross from one into the next.
+TEST(Contacts, LeaveNoCracksWhereWallsEndInsideCells) {
+  Dice dice(10);
+  for (int k = 0; k < 20; ++k) {
+    SceneBuilder b;
+    const auto m = b.material("m", glm::dvec3(0.5)), wall = b.material("w", glm::dvec3(0.5));
+    b.quad(m, onFloor(0, 0), onFloor(0, 3), onFloor(3, 0));
+    for (int w = 0; w < 3; ++w) {
+      const double turn = dice.between(0, 6.3);
+      b.quad(wall, onFloor(dice.between(0.5, 2.5), dice.between(0.5, 2.5)),
+             dice.between(0.01, 0.3) * onFloor(std::cos(turn), std::sin(turn)), {0, 1, 0});
+    }
+    const Mesh mesh = buildMesh(b.finish(), {200, {}, false});
+    expectSoundMesh(mesh);
+    expectNoVertexWithinAnEdge(mesh, 1e-6 * glm::length(mesh.bounds_max - mesh.bounds_min));
   }
 }
 

@@ -160,7 +160,8 @@ TEST(PolygonFactor, SumsToOneInsideAClosedBox) {
 }
 
 // Means over a receiving rectangle against the closed forms for pairs of rectangles: Gauss and Legendre's
-// rule, with y = t^3 towards the common edge, where the factor has a logarithm.
+// rule, with y = t^3 towards the common edge, where the factor has a logarithm, and
+// x = u^2 (3 - 2u) towards its ends.
 TEST(PolygonFactor, HasTheMeansOfTheClosedFormsForPairsOfRectangles) {
   constexpr std::array<double, 4> kNode = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
                                            0.9602898564975363};
@@ -174,8 +175,8 @@ TEST(PolygonFactor, HasTheMeansOfTheClosedFormsForPairsOfRectangles) {
         const auto i = static_cast<std::size_t>(k % 8), j = static_cast<std::size_t>(k / 8);
         const double u = (cell % kParts + (1 + (i < 4 ? -kNode[i] : kNode[i - 4])) / 2) / kParts;
         const double t = (cell / kParts + (1 + (j < 4 ? -kNode[j] : kNode[j - 4])) / 2) / kParts;
-        sum += kWeight[i % 4] * kWeight[j % 4] / 4 / (kParts * kParts) * 3 * t * t *
-               f(width * u, depth * t * t * t);
+        sum += kWeight[i % 4] * kWeight[j % 4] / 4 / (kParts * kParts) * 3 * t * t * 6 * u * (1 - u) *
+               f(width * u * u * (3 - 2 * u), depth * t * t * t);
       }
     }
     return sum;
