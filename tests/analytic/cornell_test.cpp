@@ -46,11 +46,11 @@ glm::dvec3 meanOfBlockSide(const std::vector<TruthPoint>& points, const Values& 
   for (std::size_t k = 0; k < points.size(); ++k) {
     const glm::dvec3 &p = points[k].at.position, n = points[k].at.normal;
     if (points[k].material != "white" || p.y < 1 || p.y > 331 || p.z > 558) continue;
-    if ((red ? n.x : -n.x) < 0.3) continue;
+    if ((red ? n.x : -n.x) < 0.5) continue;
     sum += values[k].value_or(glm::dvec3(0.0));
     ++count;
   }
-  EXPECT_GT(count, 10);
+  EXPECT_GE(count, 5);
   return sum / static_cast<double>(std::max(count, 1));
 }
 
