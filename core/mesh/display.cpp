@@ -77,28 +77,16 @@ class DisplayMaker {
     bool putIn() const { return from != kNone; }
   };
 
-  // Where a neighbour may be divided differently: on outlines, and within surfaces that contacts cut.
-  std::vector<char> cutSurfaces() const {
-    std::vector<char> cut(mesh_.surfaces.size(), 0);
-    for (std::uint32_t s = 0; s < mesh_.surfaces.size(); ++s) {
-      const Surface& surface = mesh_.surfaces[s];
-      if (surface.elements.count == 0) continue;
-      for (std::uint32_t c = surface.first_cell; c < surface.first_cell + surface.nu * surface.nv; ++c) {
-        if (mesh_.cells[c].element == kMixed) cut[s] = 1;
-      }
-    }
-    return cut;
-  }
-
   void makeRings() {
-    const std::vector<char> cut = cutSurfaces();
+    // A neighbour may be divided differently on outlines, and within surfaces that contacts cut.
+    const auto cut = [&](std::uint32_t piece) { return mesh_.surfaces[piece_surface_[piece]].cut; };
     std::vector<std::uint32_t> candidates;
     std::vector<char> marked(points_.size(), 0);
     for (std::uint32_t p = 0; p < mesh_.pieces.size(); ++p) {
       const Range corners = mesh_.pieces[p].corners;
       for (std::uint32_t k = corners.first; k < corners.end(); ++k) {
         const bool before = mesh_.piece_corners[k > corners.first ? k - 1 : corners.end() - 1].outline;
-        if (!mesh_.piece_corners[k].outline && !before && !cut[piece_surface_[p]]) continue;
+        if (!mesh_.piece_corners[k].outline && !before && !cut(p)) continue;
         if (!std::exchange(marked[corner_point_[k]], char{1})) candidates.push_back(corner_point_[k]);
       }
     }
@@ -115,7 +103,7 @@ class DisplayMaker {
         if (a == b) continue;
         const bool outline = corner(piece, k).outline;
         ring_.push_back({a, outline});
-        if (!outline && !cut[piece_surface_[p]]) continue;
+        if (!outline && !cut(p)) continue;
         const glm::dvec3 d = points_[b] - points_[a];
         const double length = glm::length(d);
         between.clear();

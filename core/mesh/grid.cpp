@@ -37,6 +37,7 @@ class SurfaceGrid {
   void run(std::uint32_t nu, std::uint32_t nv) {
     surface_.nu = nu;
     surface_.nv = nv;
+    surface_.cut = false;
     du_ = surface_.extent.x / nu;
     dv_ = surface_.extent.y / nv;
     surface_.first_cell = static_cast<std::uint32_t>(mesh_.cells.size());
@@ -106,7 +107,9 @@ class SurfaceGrid {
     for (std::uint32_t c = 0; c < in_cell.size(); ++c) {
       Range& pieces = cell(c).pieces;
       pieces.first = static_cast<std::uint32_t>(mesh_.pieces.size());
+      const std::size_t uncut = in_cell[c].size();
       if (!contacts_.empty()) cutByContacts(in_cell[c], contacts_, tolerance_);
+      surface_.cut = surface_.cut || in_cell[c].size() != uncut;
       for (const ConvexPolygon& p : in_cell[c]) {
         mesh_.pieces.push_back(
             {{static_cast<std::uint32_t>(mesh_.piece_corners.size()), static_cast<std::uint32_t>(p.size())},

@@ -14,9 +14,9 @@ namespace unshot {
 /// uneven.
 inline constexpr double kSliverShare = 0.4;
 
-/// Fills surface.nu, nv, first_cell, root, elements and patches, appending to cells, pieces, piece_corners,
-/// nodes, patch_shapes and shapes of the mesh. A patch spans at most patch_cells x patch_cells cells.
-/// `tolerance` [m]: what is nearer than this to a contact lies on it.
+/// Fills surface.nu, nv, cut, first_cell, root, elements and patches, appending to cells, pieces,
+/// piece_corners, nodes, patch_shapes and shapes of the mesh. A patch spans at most patch_cells x patch_cells
+/// cells. `tolerance` [m]: what is nearer than this to a contact lies on it.
 void gridSurface(Mesh& mesh, std::uint32_t surface, std::uint32_t nu, std::uint32_t nv,
                  std::uint32_t patch_cells, const std::vector<ContactSegment>& contacts, double tolerance);
 

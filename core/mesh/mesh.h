@@ -33,11 +33,12 @@ struct Surface {
   glm::dvec2 extent{0.0};  ///< the chart covers [0, extent.x] x [0, extent.y]
   double area = 0;         ///< [m^2], of one side
   Range triangles;  ///< in Mesh::triangles: the polygons of the scene, counter-clockwise about `normal`
-  std::uint32_t nu = 1, nv = 1;            ///< cells along u and v
-  std::uint32_t first_cell = 0;            ///< in Mesh::cells; cell (i, j) is first_cell + j nu + i
-  std::uint32_t root = 0;                  ///< in Mesh::nodes
-  Range elements;                          ///< in Mesh::shapes: the surface's elements, whatever the side
-  Range patches;                           ///< in Mesh::patch_shapes
+  std::uint32_t nu = 1, nv = 1;  ///< cells along u and v
+  std::uint32_t first_cell = 0;  ///< in Mesh::cells; cell (i, j) is first_cell + j nu + i
+  bool cut = false;              ///< contacts cut cells: neighbouring cells may not share all corners
+  std::uint32_t root = 0;        ///< in Mesh::nodes
+  Range elements;                ///< in Mesh::shapes: the surface's elements, whatever the side
+  Range patches;                 ///< in Mesh::patch_shapes
   std::uint32_t side[2] = {kNone, kNone};  ///< front, back: in Mesh::sides; kNone where no light can reach
 
   glm::dvec3 point(const glm::dvec2& uv) const { return origin + uv.x * axis_u + uv.y * axis_v; }

@@ -1,0 +1,69 @@
+#include "formfactor/receivers.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "mesh/build.h"
+#include "support/test_scenes.h"
+
+namespace unshot {
+namespace {
+
+using namespace testing_support;
+
+class ReceiversOfAScene : public testing::TestWithParam<ReceiverKind> {};
+
+// Vertices are in single precision, so their areas add up to 1e-6.
+TEST_P(ReceiversOfAScene, DivideTheLitAreaAndEachPatchAmongThem) {
+  for (const Scene& scene :
+       {furnaceScene(0.5, 0.5), lShapedRoom(), blockOnFloor(0.3), publishedCornellBox()}) {
+    const Mesh mesh = buildMesh(scene, {3000, {}, false});
+    const Receivers receivers = makeReceivers(mesh, GetParam());
+    ASSERT_EQ(receivers.start.size(), receivers.size() + 1);
+    ASSERT_EQ(receivers.reflectance.size(), receivers.size());
+    double area = 0;
+    std::vector<double> of_patch(mesh.patch_count, 0.0);
+    for (std::uint32_t v = 0; v < receivers.size(); ++v) {
+      area += receivers.area[v];
+      double shares = 0;
+      for (std::uint32_t s = receivers.start[v]; s < receivers.start[v + 1]; ++s) {
+        EXPECT_EQ(receivers.shares[s].receiver, v);
+        shares += receivers.shares[s].area;
+        of_patch[receivers.shares[s].patch] += receivers.shares[s].area;
+        EXPECT_EQ(receivers.reflectance[v],
+                  mesh.sides[mesh.patch_side[receivers.shares[s].patch]].reflectance);
+      }
+      EXPECT_NEAR(shares, receivers.area[v], 1e-12 * mesh.lit_area);
+    }
+    EXPECT_NEAR(area, mesh.lit_area, 1e-6 * mesh.lit_area);
+    for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
+      EXPECT_NEAR(of_patch[q], mesh.patch_area[q], 1e-4 * mesh.patch_area[q]) << "patch " << q;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, ReceiversOfAScene,
+                         testing::Values(ReceiverKind::kElements, ReceiverKind::kVertices),
+                         [](const auto& row) {
+                           return row.param == ReceiverKind::kElements ? "Elements" : "Vertices";
+                         });
+
+TEST(VertexReceivers, StandOffEdgesTowardsTheirElements) {
+  const Mesh mesh = buildMesh(furnaceScene(0.5, 0.5), {600, {}, false});
+  const Receivers receivers = makeReceivers(mesh, ReceiverKind::kVertices);
+  ASSERT_EQ(receivers.position.size(), mesh.vertices.size());
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const glm::dvec3 p = receivers.position[v], vertex(mesh.vertices[v].position);
+    const Side& side = mesh.sides[mesh.vertices[v].side];
+    EXPECT_LT(glm::distance(p, vertex), 2e-3 * mesh.element_size);
+    for (int axis = 0; axis < 3; ++axis) {  // strictly inside the cube but for its own wall
+      if (std::abs(side.normal[axis]) < 0.5) {
+        EXPECT_LT(std::abs(p[axis]), 0.5);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace unshot
