@@ -13,6 +13,12 @@ std::string stopText(const RunRecord& record, const SolveOptions& options) {
   return by;
 }
 
+std::string shotsText(const Counts& counts) {
+  std::string text = countText(counts.shots) + ", " + countedText(counts.rows, "column") + " computed";
+  if (counts.drawn > 0) text += " from " + countedText(counts.drawn, "hemicube");
+  return text;
+}
+
 std::string rendererText(const RunRecord& record) {
   if (!record.gl) return "none needed";
   return record.gl->provider + ", " + record.gl->renderer + (record.gl->hardware ? "" : " (software)");
@@ -37,7 +43,7 @@ void printSummary(std::ostream& out, const RunRecord& record, const SolveOptions
                    countedText(record.counts.vertices, "vertex", "vertices")},
       {"method", record.mode + ", " + record.form_factors},
       {"renderer", rendererText(record)},
-      {"shots", countText(record.counts.shots)},
+      {"shots", shotsText(record.counts)},
       {"unshot", percentText(record.measures.unshot_fraction)},
       {"time", durationText(total) + " (load " + durationText(seconds.load) + ", mesh " +
                    durationText(seconds.mesh) + ", plan " + durationText(seconds.plan) + ", solve " +

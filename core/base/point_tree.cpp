@@ -67,28 +67,10 @@ std::uint32_t PointTree::build(std::uint32_t first, std::uint32_t count) {
   return index;
 }
 
-void PointTree::nearSegment(const glm::dvec3& a, const glm::dvec3& b, double distance,
-                            const std::function<void(std::uint32_t)>& found) const {
-  if (boxes_.empty()) return;
-  std::array<std::uint32_t, 64> stack{};
-  int depth = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const std::uint32_t index = stack[--depth];
-    const Box& box = boxes_[index];
-    if (!segmentMeetsBox(a, b, box.low - distance, box.high + distance)) continue;
-    if (box.right != 0) {
-      stack[depth++] = box.right;
-      stack[depth++] = index + 1;
-      continue;
-    }
-    for (std::uint32_t k = box.first; k < box.first + box.count; ++k) {
-      if (squaredDistanceToSegment(points_[order_[k]], a, b) <= distance * distance) found(order_[k]);
-    }
-  }
-}
-
-bool PointTree::anyInFront(const glm::dvec3& normal, double offset) const {
+// Goes through the tree, into boxes that `meets` lets pass, and hands their points to `visit` until it
+// returns true.
+template <class Meets, class Visit>
+bool PointTree::search(Meets&& meets, Visit&& visit) const {
   if (boxes_.empty()) return false;
   std::array<std::uint32_t, 64> stack{};
   int depth = 0;
@@ -96,19 +78,36 @@ bool PointTree::anyInFront(const glm::dvec3& normal, double offset) const {
   while (depth > 0) {
     const std::uint32_t index = stack[--depth];
     const Box& box = boxes_[index];
-    const glm::dvec3 corner{normal.x > 0 ? box.high.x : box.low.x, normal.y > 0 ? box.high.y : box.low.y,
-                            normal.z > 0 ? box.high.z : box.low.z};
-    if (glm::dot(normal, corner) <= offset) continue;
+    if (!meets(box)) continue;
     if (box.right != 0) {
       stack[depth++] = box.right;
       stack[depth++] = index + 1;
       continue;
     }
     for (std::uint32_t k = box.first; k < box.first + box.count; ++k) {
-      if (glm::dot(normal, points_[order_[k]]) > offset) return true;
+      if (visit(order_[k])) return true;
     }
   }
   return false;
+}
+
+void PointTree::nearSegment(const glm::dvec3& a, const glm::dvec3& b, double distance,
+                            const std::function<void(std::uint32_t)>& found) const {
+  search([&](const Box& box) { return segmentMeetsBox(a, b, box.low - distance, box.high + distance); },
+         [&](std::uint32_t k) {
+           if (squaredDistanceToSegment(points_[k], a, b) <= distance * distance) found(k);
+           return false;
+         });
+}
+
+bool PointTree::anyInFront(const glm::dvec3& normal, double offset) const {
+  return search(
+      [&](const Box& box) {
+        const glm::dvec3 corner{normal.x > 0 ? box.high.x : box.low.x, normal.y > 0 ? box.high.y : box.low.y,
+                                normal.z > 0 ? box.high.z : box.low.z};
+        return glm::dot(normal, corner) > offset;
+      },
+      [&](std::uint32_t k) { return glm::dot(normal, points_[k]) > offset; });
 }
 
 }  // namespace unshot

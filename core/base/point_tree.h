@@ -29,6 +29,8 @@ class PointTree {
     std::uint32_t right;         // second child; the first follows its parent; 0 in a leaf
   };
   std::uint32_t build(std::uint32_t first, std::uint32_t count);
+  template <class Meets, class Visit>
+  bool search(Meets&& meets, Visit&& visit) const;
 
   std::span<const glm::dvec3> points_;
   std::vector<std::uint32_t> order_;

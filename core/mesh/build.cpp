@@ -131,7 +131,27 @@ std::vector<double> sizesFor(const Mesh& mesh, double wanted) {
   return sizes;
 }
 
+void sayCount(Mesh& mesh, double wanted) {
+  mesh.diagnostics.push_back(
+      {Severity::kNote,
+       "element-count",
+       std::to_string(static_cast<std::uint64_t>(wanted)) + " elements were asked for, the mesh has " +
+           std::to_string(static_cast<std::uint64_t>(countElements(mesh))) + ": each of the " +
+           std::to_string(mesh.sides.size()) + " lit surface sides needs at least one",
+       {},
+       {}});
+}
+
 void gridForCount(Mesh& mesh, double wanted, const Contacts& contacts, double tolerance) {
+  double least = 0;
+  for (const Surface& s : mesh.surfaces) least += litSides(s);
+  // More sides than elements asked for: large surfaces are still cut as finely as the number says by area.
+  if (least > 0.9 * wanted) {
+    gridAll(mesh, std::vector<double>(mesh.surfaces.size(), std::sqrt(mesh.lit_area / wanted)), contacts,
+            tolerance);
+    sayCount(mesh, wanted);
+    return;
+  }
   double asked = wanted, best_error = INFINITY;
   std::vector<double> best;
   // Clipped and joined cells make the count differ from the estimate by some percent; a few corrections close
@@ -148,16 +168,7 @@ void gridForCount(Mesh& mesh, double wanted, const Contacts& contacts, double to
     asked *= wanted / countElements(mesh);
   }
   if (std::abs(countElements(mesh) / wanted - 1) > best_error) gridAll(mesh, best, contacts, tolerance);
-  if (best_error > 0.1) {
-    mesh.diagnostics.push_back(
-        {Severity::kNote,
-         "element-count",
-         std::to_string(static_cast<std::uint64_t>(wanted)) + " elements were asked for, the mesh has " +
-             std::to_string(static_cast<std::uint64_t>(countElements(mesh))) + ": each of the " +
-             std::to_string(mesh.sides.size()) + " lit surface sides needs at least one",
-         {},
-         {}});
-  }
+  if (best_error > 0.1) sayCount(mesh, wanted);
 }
 
 void numberElements(Mesh& mesh) {

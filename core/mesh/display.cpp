@@ -195,12 +195,13 @@ class DisplayMaker {
 
   void numberVertices() {
     vertex_.assign(group_.size(), kNone);
+    std::vector<std::uint32_t> of_group(group_.size(), kNone);
     for (std::uint32_t p = 0; p < mesh_.pieces.size(); ++p) {
       const Surface& surface = mesh_.surfaces[piece_surface_[p]];
       for (std::uint32_t k = ring_start_[p]; k < ring_start_[p + 1]; ++k) {
         for (std::uint32_t back = 0; back < 2; ++back) {
           if (surface.side[back] == kNone) continue;
-          std::uint32_t& vertex = vertex_[find(2 * k + back)];
+          std::uint32_t& vertex = of_group[find(2 * k + back)];
           if (vertex == kNone) {
             vertex = static_cast<std::uint32_t>(mesh_.vertices.size());
             mesh_.vertices.push_back(
@@ -299,7 +300,7 @@ class DisplayMaker {
     const Range pieces = mesh_.cells[surface.first_cell + cell].pieces;
     for (std::uint32_t k = ring_start_[pieces.first]; k < ring_start_[pieces.end()]; ++k) {
       const glm::dvec2 t = (surface.chart(points_[ring_[k].point]) - low) / step;
-      const glm::dvec2 nearest = glm::round(t);
+      const glm::dvec2 nearest = glm::clamp(glm::round(t), 0.0, 1.0);
       if (glm::distance(t * step, nearest * step) > 2 * distance_) continue;
       out[static_cast<std::size_t>(nearest.x + 2 * nearest.y)] = k;
     }
@@ -368,7 +369,7 @@ class DisplayMaker {
   std::vector<RingCorner> ring_;
   std::vector<std::uint32_t> ring_start_;  // per piece
   std::vector<std::uint32_t> group_;       // union-find over 2 ring corner + back
-  std::vector<std::uint32_t> vertex_;      // display vertex of 2 ring corner + back
+  std::vector<std::uint32_t> vertex_;  // display vertex of 2 ring corner + back; kNone: that side is not lit
 };
 
 }  // namespace

@@ -15,8 +15,8 @@ RunRecord recordOf(const Solve& solve) {
   record.mode = solve.modeKey();
   record.form_factors = solve.formFactorsKey();
   record.measures = solve.measures();
-  record.counts = {mesh.surfaces.size(), mesh.patch_count,     mesh.element_count,
-                   mesh.vertices.size(), record.measures.rows, record.measures.shots};
+  record.counts = {mesh.surfaces.size(), mesh.patch_count,      mesh.element_count, mesh.vertices.size(),
+                   record.measures.rows, record.measures.shots, solve.drawn()};
   record.seconds = solve.seconds();
   record.energy = solve.energy();
   record.peak_memory_bytes = peakMemoryBytes();

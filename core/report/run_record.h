@@ -27,6 +27,7 @@ struct Counts {
   std::size_t vertices = 0;
   std::uint64_t rows = 0;
   std::uint64_t shots = 0;
+  std::uint64_t drawn = 0;  ///< hemicubes
 };
 
 struct RunRecord {

@@ -73,22 +73,26 @@ Scene cubeOneFaceLit(double reflectance) {
   return cubeScene(materials);
 }
 
+namespace {
+
+// The unit square on the floor, reflecting rho, and a black unit square that emits 1: corner + a x b.
+Scene floorAndLight(double reflectance, const glm::dvec3& corner, const glm::dvec3& a, const glm::dvec3& b) {
+  SceneBuilder builder;
+  const auto floor = builder.material("floor", glm::dvec3(reflectance));
+  const auto light = builder.material("light", glm::dvec3(0.0), glm::dvec3(1.0));
+  builder.quad(floor, {0, 0, 0}, {0, 0, 1}, {1, 0, 0});
+  builder.quad(light, corner, a, b);
+  return builder.finish();
+}
+
+}  // namespace
+
 Scene parallelSquares(double reflectance) {
-  SceneBuilder b;
-  const auto floor = b.material("floor", glm::dvec3(reflectance));
-  const auto light = b.material("light", glm::dvec3(0.0), glm::dvec3(1.0));
-  b.quad(floor, {0, 0, 0}, {0, 0, 1}, {1, 0, 0});
-  b.quad(light, {0, 1, 0}, {1, 0, 0}, {0, 0, 1});
-  return b.finish();
+  return floorAndLight(reflectance, {0, 1, 0}, {1, 0, 0}, {0, 0, 1});
 }
 
 Scene perpendicularSquares(double reflectance) {
-  SceneBuilder b;
-  const auto floor = b.material("floor", glm::dvec3(reflectance));
-  const auto light = b.material("light", glm::dvec3(0.0), glm::dvec3(1.0));
-  b.quad(floor, {0, 0, 0}, {0, 0, 1}, {1, 0, 0});
-  b.quad(light, {0, 0, 0}, {0, 1, 0}, {0, 0, 1});
-  return b.finish();
+  return floorAndLight(reflectance, {0, 0, 0}, {0, 1, 0}, {0, 0, 1});
 }
 
 namespace {

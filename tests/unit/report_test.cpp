@@ -77,7 +77,7 @@ RunRecord someRecord() {
   record.plan = {{"what", "why", "saving"}};
   record.mode = "southwell";
   record.form_factors = "hemicube";
-  record.counts = {1, 2, 3, 4, 5, 6};
+  record.counts = {1, 2, 3, 4, 5, 6, 7};
   record.seconds = {0.1, 0.2, 0.3, 0.4, 0.5};
   record.energy.emitted = 10;
   record.energy.absorbed = 9;
