@@ -2,8 +2,6 @@
 // light only, at points with E = 0.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <filesystem>
 #include <optional>

@@ -1,0 +1,71 @@
+// Scenes with path-traced reference values at finer meshes. Those under $UNSHOT_SCENES are passed over where
+// it is not set.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "scene/obj_reader.h"
+#include "support/solving.h"
+#include "support/test_scenes.h"
+#include "support/truth.h"
+
+namespace unshot {
+namespace {
+
+using namespace testing_support;
+namespace fs = std::filesystem;
+
+double errorAgainst(const fs::path& scene, const fs::path& reference, std::uint64_t elements,
+                    bool front_only) {
+  SolveOptions options = optionsOf("hemicube", elements, 0.003);
+  options.emit_front_only = front_only;
+  const auto solve = solved(readObj(scene), options);
+  const std::vector<TruthPoint> truth = readTruth(reference);
+  const double error = reflectedError(truth, answerProbes(solve->snapshot(), probesOf(truth), false));
+  measured(scene.filename().string() + ", " + std::to_string(elements) + " elements, nRMSE", error);
+  return error;
+}
+
+// The finer the mesh, the nearer to the reference, down to the reference's own noise.
+TEST(Reference, IsApproachedByTheCornellBoxAsTheMeshIsRefined) {
+  const fs::path data = UNSHOT_TEST_DATA;
+  const auto error = [&](std::uint64_t elements) {
+    return errorAgainst(data / "cornell_published.obj", data / "cornell_published.csv", elements, false);
+  };
+  const double coarse = error(1'000), middle = error(10'000), fine = error(50'000);
+  EXPECT_LT(middle, 0.6 * coarse);
+  EXPECT_LT(fine, 1.1 * middle);
+  EXPECT_LT(fine, 0.02);
+}
+
+struct Shared {
+  const char *name, *scene, *reference;
+  std::uint64_t elements;
+  bool front_only;
+  double tolerance;
+};
+
+const Shared kShared[] = {
+    {"CornellOriginal", "mcguire_cornell/CornellBox-Original.obj", "truth/mcguire_cornell_original.csv",
+     10'000, false, 0.05},
+    {"CornellOriginalFront", "mcguire_cornell/CornellBox-Original.obj",
+     "truth/mcguire_cornell_original_emitfront.csv", 10'000, true, 0.05},
+    {"TeapotBox", "teapot_box/teapot_box.obj", "truth/teapot_box.csv", 30'000, false, 0.08}};
+
+class SharedScene : public testing::TestWithParam<Shared> {};
+
+TEST_P(SharedScene, MeetsItsReference) {
+  const char* folder = std::getenv("UNSHOT_SCENES");
+  if (!folder) GTEST_SKIP() << "UNSHOT_SCENES is not set";
+  const Shared& s = GetParam();
+  EXPECT_LT(
+      errorAgainst(fs::path(folder) / s.scene, fs::path(folder) / s.reference, s.elements, s.front_only),
+      s.tolerance);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SharedScene, testing::ValuesIn(kShared),
+                         [](const auto& row) { return row.param.name; });
+
+}  // namespace
+}  // namespace unshot
