@@ -7,6 +7,7 @@
 
 #include "base/clock.h"
 #include "formfactor/methods.h"
+#include "gl/context.h"
 #include "mesh/build.h"
 #include "support/dice.h"
 
