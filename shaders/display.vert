@@ -23,7 +23,10 @@ out float gl_ClipDistance[1];
 
 void main() {
   vec3 to_eye = eye - position;
-  gl_Position = view_projection * vec4(edges ? position + 0.001 * to_eye : position, 1.0);
+  // Within half a pixel depth grows by 1 / cosine: where a side is seen nearly edge-on its lines need more.
+  float cosine = dot(normal, to_eye) / max(length(to_eye), 1e-30);
+  float pull = clamp(0.0007 / max(cosine, 1e-3), 0.001, 0.01);
+  gl_Position = view_projection * vec4(edges ? position + pull * to_eye : position, 1.0);
   gl_ClipDistance[0] = dot(normal, to_eye);
   vertex_irradiance = irradiance;
   vertex_ambient = ambient_weight * ambient;

@@ -20,6 +20,7 @@ constexpr double kNear = 0.1;              // of the scene's diagonal: nearer th
 constexpr double kDark = 0.05;             // of the median luminance of the sides
 constexpr double kDrawnTriangles = 1.2e7;  // all candidates together: about a second in software
 constexpr std::size_t kFewestCandidates = 20;
+constexpr double kOpen = 0.1;  // of the frame: so much background between the surfaces makes a scene open
 
 // The scene's polygons with their sides, drawn as ids.
 class SidePictures {
@@ -200,7 +201,8 @@ double score(const ViewFigures& figures, const ViewFigures& best) {
   const auto relative = [](double value, double largest) { return largest > 0 ? value / largest : 0; };
   return figures.lit + 0.3 * figures.covered + 0.4 * relative(figures.variety, best.variety) +
          0.7 * relative(figures.seen, best.seen) + 0.3 * figures.contrast +
-         0.3 * relative(figures.lamps, best.lamps) - 0.8 * figures.blocked - 0.6 * figures.backs;
+         0.3 * relative(figures.lamps, best.lamps) - 0.8 * figures.blocked - 0.6 * figures.backs -
+         0.6 * figures.cut;
 }
 
 }  // namespace
@@ -239,7 +241,7 @@ std::vector<CameraCandidate> cameraCandidates(const Bounds& bounds, const Automa
   // From outside: straight at the four faces (how the Cornell box is published), then from above.
   for (int azimuth = 0; azimuth < 360; azimuth += 90) {
     candidates.push_back(
-        {frameBounds(bounds, heading(azimuth, 0), options.up, outside_fov, options.aspect, 0.98), 0.15});
+        {frameBounds(bounds, heading(azimuth, 0), options.up, outside_fov, options.aspect, 0.98), 0.25});
   }
   for (int azimuth = 30; azimuth < 390; azimuth += 60) {
     candidates.push_back(
@@ -280,21 +282,34 @@ ViewFigures judgeView(std::span<const std::uint32_t> ids, int width, int height,
   const double tan_x = tan_y * width / height;
   const double median = medianLuminance(looks);
   std::vector<std::uint32_t> pixels_of(mesh.sides.size(), 0);
+  std::vector<bool> at_border(mesh.sides.size(), false);
   double in_bounds = 0, lit = 0, blocked = 0;
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    const double x = 2 * (static_cast<double>(i % static_cast<std::size_t>(width)) + 0.5) / width - 1;
-    const double y = 2 * (static_cast<double>(i / static_cast<std::size_t>(width)) + 0.5) / height - 1;
+    const std::size_t column = i % static_cast<std::size_t>(width);
+    const std::size_t row = i / static_cast<std::size_t>(width);
+    const double x = 2 * (static_cast<double>(column) + 0.5) / width - 1;
+    const double y = 2 * (static_cast<double>(row) + 0.5) / height - 1;
     const glm::dvec3 ray = glm::normalize(basis.forward + tan_x * x * basis.right + tan_y * y * basis.up);
     if (ids[i] != 0 || meets(bounds, camera.eye, ray)) ++in_bounds;
     if (ids[i] == 0) continue;
     const std::uint32_t side = ids[i] - 1;
     ++pixels_of[side];
+    if (column == 0 || row == 0 || column + 1 == static_cast<std::size_t>(width) ||
+        row + 1 == static_cast<std::size_t>(height))
+      at_border[side] = true;
     if (median == 0 || looks[side].luminance > kDark * median) ++lit;
     if (distanceTo(mesh, side, camera.eye, ray) < kNear * bounds.diagonal()) ++blocked;
   }
-  ViewFigures figures = judgeSides(pixels_of, static_cast<double>(width) * height, mesh, looks);
+  const double all_pixels = static_cast<double>(width) * height;
+  ViewFigures figures = judgeSides(pixels_of, all_pixels, mesh, looks);
   if (in_bounds > 0) figures.lit = lit / in_bounds;
-  figures.blocked = blocked / (static_cast<double>(width) * height);
+  figures.blocked = blocked / all_pixels;
+  const double covered = figures.covered * all_pixels;
+  double cut = 0;
+  for (std::size_t s = 0; s < pixels_of.size(); ++s) {
+    if (at_border[s]) cut += pixels_of[s];
+  }
+  if (covered > 0) figures.cut = cut / covered * std::min(1.0, (in_bounds - covered) / (kOpen * all_pixels));
   return figures;
 }
 

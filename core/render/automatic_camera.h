@@ -50,6 +50,7 @@ struct ViewFigures {
   double lamps = 0;     ///< lamps in view
   double backs = 0;     ///< of the covered pixels: back sides (lamps aside), seldom meant to be seen
   double blocked = 0;   ///< pixels with something right before the eye
+  double cut = 0;  ///< of the covered pixels: sides that the frame cuts off, where background shows between
 };
 
 /// `ids`: one per pixel, side + 1 or 0, lowest row first.

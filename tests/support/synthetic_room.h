@@ -1,5 +1,6 @@
 // A mesh and a snapshot without reader, mesher or solver: a box room seen from inside, open to the front if
-// asked, with one block on its floor and a lamp under its ceiling, and an irradiance that is a formula.
+// asked, with one block on its floor and a lamp under its ceiling, and an irradiance that is a formula; or
+// only a lamp over a floor, with nothing around them.
 #pragma once
 
 #include <array>
@@ -45,6 +46,14 @@ class RoomBuilder {
     quad({0.6, 0, 0.4}, {0, 0, -0.5}, {0, 0.8, 0}, 0, 4);      // right
     quad({0.6, 0, -0.1}, {-0.5, 0, 0}, {0, 0.8, 0}, 0, 4);     // back
     quad({0.1, 0.8, 0.4}, {0.5, 0, 0}, {0, 0, -0.5}, 0, 4);    // top
+    snapshot_.mesh = mesh_;
+    return snapshot_;
+  }
+
+  Snapshot buildTwoPatches() {
+    quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, 0, options_.cells);  // floor
+    quad({-0.5, 1.2, -0.3}, {1, 0, 0}, {0, 0, 0.6}, 3, 1);       // lamp, faces down
+    mesh_->bounds_max.y = 1.2 * options_.scale;
     snapshot_.mesh = mesh_;
     return snapshot_;
   }
@@ -125,5 +134,8 @@ class RoomBuilder {
 };
 
 inline Snapshot syntheticRoom(const RoomOptions& options = {}) { return RoomBuilder(options).build(); }
+inline Snapshot syntheticTwoPatches(const RoomOptions& options = {}) {
+  return RoomBuilder(options).buildTwoPatches();
+}
 
 }  // namespace unshot::testing_support

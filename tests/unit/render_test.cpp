@@ -19,6 +19,7 @@ namespace {
 
 using testing_support::RoomOptions;
 using testing_support::syntheticRoom;
+using testing_support::syntheticTwoPatches;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -230,6 +231,24 @@ TEST_P(Rendering, LooksThroughTheOpenSideByItself) {
   EXPECT_NEAR(drawn.camera.eye.x, 0, 1e-6);
   EXPECT_NEAR(drawn.camera.eye.y, 1, 1e-6);
   EXPECT_LT(std::abs(drawn.camera.at.x), 1e-6);
+}
+
+TEST_P(Rendering, ShowsALampAndAFloorWithNothingAroundThemWhole) {
+  const Snapshot patches = syntheticTwoPatches();
+  const Mesh& mesh = *patches.mesh;
+  for (const double aspect : {1.0, 4.0 / 3.0, 16.0 / 9.0}) {
+    const Camera camera = automaticCamera(*context_, patches, {.aspect = aspect, .fov_deg = {}});
+    const glm::mat4 matrix = viewProjection(camera, aspect, {mesh.bounds_min, mesh.bounds_max});
+    for (const glm::dvec3& corner : mesh.positions) {
+      const glm::vec4 clip = matrix * glm::vec4(glm::vec3(corner), 1.0f);
+      ASSERT_GT(clip.w, 0);
+      EXPECT_LE(std::abs(clip.x), clip.w) << aspect;
+      EXPECT_LE(std::abs(clip.y), clip.w) << aspect;
+    }
+    for (const Surface& surface : mesh.surfaces) {
+      EXPECT_GT(glm::dot(camera.eye - surface.origin, surface.normal), 0.1) << "seen from its dark side";
+    }
+  }
 }
 
 TEST_P(Rendering, SeesTheInsideOfAClosedRoomByItself) {
