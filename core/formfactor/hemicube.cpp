@@ -14,6 +14,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 
 #include "base/random.h"
 #include "formfactor/hemicube_picture.h"
@@ -71,6 +72,7 @@ class Hemicube final : public FormFactorMethod {
     }
     fillCells();
     received_.assign(mesh_.element_count, 0.0);
+    touched_.assign(mesh_.element_count / 64 + 1, 0);
   }
 
   ReceiverKind receiverKind() const override { return ReceiverKind::kElements; }
@@ -166,17 +168,17 @@ class Hemicube final : public FormFactorMethod {
     }
   }
 
-  void begin() {
-    escape_ = 0;
-    touched_.clear();
-  }
+  void begin() { escape_ = 0; }
 
   template <class F>
   void takeReceived(F&& f) {
-    std::sort(touched_.begin(), touched_.end());
-    for (const std::uint32_t e : touched_) {
-      f(e, received_[e]);
-      received_[e] = 0;
+    for (std::size_t word = 0; word < touched_.size(); ++word) {
+      for (std::uint64_t bits = std::exchange(touched_[word], 0); bits != 0; bits &= bits - 1) {
+        const auto e =
+            static_cast<std::uint32_t>(64 * word) + static_cast<std::uint32_t>(std::countr_zero(bits));
+        f(e, received_[e]);
+        received_[e] = 0;
+      }
     }
   }
 
@@ -258,7 +260,7 @@ class Hemicube final : public FormFactorMethod {
       if (element == kNone) {
         escape_ += share * delta[k];
       } else if (element < kLost) {
-        if (received_[element] == 0) touched_.push_back(element);
+        touched_[element / 64] |= std::uint64_t{1} << element % 64;
         received_[element] += share * delta[k];
       }
     }
@@ -309,8 +311,8 @@ class Hemicube final : public FormFactorMethod {
   std::vector<SurfaceLookup> lookups_;
   std::vector<std::uint32_t> cell_element_;
   std::vector<std::pair<std::uint32_t, std::vector<double>>> deltas_;
-  std::vector<double> received_;  // per element, of the column in work
-  std::vector<std::uint32_t> touched_;
+  std::vector<double> received_;        // per element, of the column in work
+  std::vector<std::uint64_t> touched_;  // a bit per element: ascending order without sorting
   double escape_ = 0;
   std::uint64_t drawn_ = 0;
 };

@@ -99,7 +99,7 @@ void printPictureTable(const std::vector<std::uint64_t>& elements, int pictures,
   const std::unique_ptr<gl::Context> context = gl::createContext("auto");
   context->makeCurrent();
   std::printf("Hemicubes of the Cornell box, drawn by %s\n", context->info().renderer.c_str());
-  std::printf("(CPU time of all threads; a picture is drawn, read back and counted; median of %d.\n",
+  std::printf("(CPU time of all threads; a picture is drawn, read back and counted; median of %d columns.\n",
               pictures);
   std::printf(
       " Column error: RMS over %d patches of the relative L2 distance to 64 or more pictures of 512 "

@@ -13,7 +13,7 @@
 
 namespace unshot::testing_support {
 
-/// A mesh of the scene and its hemicube method. A row of K is one hemicube: drawn, read back and counted.
+/// A mesh of the scene and its hemicube method.
 class HemicubeCost {
  public:
   HemicubeCost(const Scene& scene, std::uint64_t elements, gl::Context& context)
@@ -30,15 +30,17 @@ class HemicubeCost {
   const Mesh& mesh() const { return *mesh_; }
   FormFactorMethod& method() { return *method_; }
 
-  /// CPU seconds, of all threads, of one hemicube on an element that does not shine.
+  /// CPU seconds, of all threads, that each hemicube of a column takes: drawn, read back, counted and made
+  /// into the column. Of a patch that does not shine, since those that do are drawn finer.
   double measureOnce(Dice& dice) {
-    std::uint32_t element = 0;
+    std::uint32_t patch = 0;
     do {
-      element = dice.below(mesh_->element_count);
-    } while (mesh_->sides[mesh_->element_side[element]].emission != glm::dvec3(0.0));
+      patch = dice.below(mesh_->patch_count);
+    } while (mesh_->sides[mesh_->patch_side[patch]].emission != glm::dvec3(0.0));
+    const std::uint64_t drawn = method_->drawn();
     const double start = cpuSeconds();
-    method_->row(element);
-    seconds_.push_back(cpuSeconds() - start);
+    method_->column(patch);
+    seconds_.push_back((cpuSeconds() - start) / static_cast<double>(method_->drawn() - drawn));
     return seconds_.back();
   }
 
