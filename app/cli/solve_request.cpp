@@ -64,9 +64,10 @@ void SolveArguments::addSolver(Command& command) {
               keyOf(modes, true));
   command.add("--form-factors", options_.form_factors, "F",
               "Form factors: " + keysOf(methods, true) + " (default auto)", keyOf(methods, true));
-  command.add("--hemicube", options_.hemicube_resolution, "N",
-              "Pixels along an edge of the hemicube, even, 16 to 4096 (default: chosen)",
-              wholeNumber(16, 4096, true));
+  command.add(
+      "--hemicube", options_.hemicube_resolution, "N",
+      "Pixels along an edge of the hemicube, even, 16 to 4096 (default 64); lights get up to 4 times as many",
+      wholeNumber(16, 4096, true));
   command.add("--emit", emit_, "both|front", "Sides on which light sources emit (default both)", emitText());
   command.add("--keep", kept_mb_, "MB", "Memory for form factors that are kept [MB] (default 1074)",
               wholeNumber(0, 1'000'000));

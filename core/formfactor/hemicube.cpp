@@ -40,10 +40,11 @@ constexpr double kFloorShare = 1.0 / 32;
 constexpr int kMostSplits = 4;
 // Pixels along the top face. A converged solution rests on thousands of pictures, each turned by its own
 // angle, so 64 give the same error as 128 on the Cornell box (1.3 % at 10,000 elements) in half the time. The
-// few that show the emitters' shadows are finer.
+// few that show the emitters' light and shadows are finer by a factor: nothing averages their noise out.
 constexpr std::uint32_t kResolution = 64;
-constexpr std::uint32_t kEmitterResolution = 256;
-constexpr std::uint32_t kTracedEmitterResolution = 128;  // a ray costs more than a drawn pixel
+constexpr std::uint32_t kEmitterFactor = 4;
+constexpr std::uint32_t kTracedEmitterFactor = 2;  // a ray costs more than a drawn pixel
+constexpr std::uint32_t kFinestEmitterResolution = 1024;
 // Where OpenGL runs in software, this many triangles are drawn slower than rays are traced.
 constexpr std::size_t kManyTriangles = 5000;
 
@@ -56,10 +57,9 @@ struct SurfaceLookup {
 class Hemicube final : public FormFactorMethod {
  public:
   Hemicube(const FormFactorSetup& setup) : mesh_(*setup.mesh), seed_(setup.seed) {
+    resolution_ = setup.hemicube_resolution != 0 ? setup.hemicube_resolution : kResolution;
     chooseView(setup);
     floor_ = std::min(mesh_.element_size / 2, kFloorShare * glm::length(mesh_.bounds_max - mesh_.bounds_min));
-    resolution_ = kResolution;
-    if (setup.hemicube_resolution != 0) resolution_ = emitter_resolution_ = setup.hemicube_resolution;
     for (const Surface& s : mesh_.surfaces) {
       SurfaceLookup lookup{s.nu, s.nv, s.first_cell, {kNone, kNone}};
       for (int back = 0; back < 2; ++back) {
@@ -130,13 +130,17 @@ class Hemicube final : public FormFactorMethod {
     }
     if (drawing == HemicubeDrawing::kRays) {
       view_ = std::make_unique<HemicubeRays>(mesh_);
-      emitter_resolution_ = kTracedEmitterResolution;
+      emitter_resolution_ = emitterResolution(kTracedEmitterFactor);
       note_ = "hemicubes are traced with rays: " + std::to_string(mesh_.triangles.size()) +
               " triangles are too many a picture for a software renderer";
     } else {
       view_ = std::make_unique<HemicubePicture>(setup.gl(), mesh_);
-      emitter_resolution_ = kEmitterResolution;
+      emitter_resolution_ = emitterResolution(kEmitterFactor);
     }
+  }
+
+  std::uint32_t emitterResolution(std::uint32_t factor) const {
+    return std::max(resolution_, std::min(factor * resolution_, kFinestEmitterResolution));
   }
 
   // Cells without area border on the outline; rounding can put a pixel there, which then belongs to the
