@@ -1,0 +1,32 @@
+// Draws Dear ImGui's draw data with the function table of a context, whatever its provider, so that the
+// window and pictures without a window show the same panels.
+#pragma once
+
+#include <imgui.h>
+
+#include "gl/objects.h"
+
+namespace unshot {
+
+/// All calls on the thread where the context is current. One ImGui context may be used with it at a time.
+class GuiRenderer {
+ public:
+  explicit GuiRenderer(gl::Context& context);
+
+  /// Uploads the atlas of `fonts` and sets its texture id; again whenever the fonts were built anew.
+  void setFonts(ImFontAtlas& fonts);
+
+  /// Draws into the lower left `width` x `height` pixels of the bound framebuffer (which hold sRGB-encoded
+  /// values and take them as they are). State that is changed goes back to OpenGL's defaults; framebuffer and
+  /// viewport stay.
+  void draw(const ImDrawData& data, int width, int height);
+
+ private:
+  gl::Context& context_;
+  gl::Program program_;
+  gl::VertexArray vertex_array_;
+  gl::Buffer vertices_, indices_;
+  gl::Texture font_;
+};
+
+}  // namespace unshot

@@ -1,0 +1,33 @@
+// A live curve with a logarithmic vertical axis, drawn with ImDrawList (ImGui's own plots have no axes).
+#pragma once
+
+#include <imgui.h>
+
+#include <optional>
+#include <span>
+#include <string>
+
+namespace unshot {
+
+struct PlotPoint {
+  double x = 0;
+  double y = 0;  ///< values that are not positive are left out
+};
+
+struct PlotStyle {
+  const char* x_label = "";    ///< under the axis, with its unit
+  const char* y_label = "";    ///< over the axis
+  std::optional<double> goal;  ///< a dashed line
+  bool percent = true;         ///< y as 100 %, 10 %, ...
+  float height = 0;            ///< in pixels; 0: five ninths of the width
+};
+
+/// Draws the curve at ImGui's cursor, as wide as the room there is, with decades, ticks at round numbers and,
+/// under the mouse, the values of the nearest point. Copes with no point, with one, and with ranges of any
+/// size.
+void logPlot(const char* id, std::span<const PlotPoint> points, const PlotStyle& style);
+
+/// Round steps (1, 2 or 5 times a power of ten) that cut [0, high] into at most `most` parts.
+double roundStep(double high, int most);
+
+}  // namespace unshot

@@ -1,0 +1,107 @@
+// The live solve: a thread of its own that reads, meshes and solves; commands in, immutable states out,
+// nothing else (law 5).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "session/solve.h"
+
+namespace unshot {
+
+enum class SessionPhase {
+  kEmpty,      ///< no scene was asked for yet, or the first one failed
+  kLoading,    ///< a scene is read or meshed; what was shown before stays
+  kRunning,    ///< shooting
+  kPaused,     ///< waits for resume or step
+  kConverged,  ///< the error asked for is reached
+  kStopped,    ///< a limit of the options is reached (max_shots, max_seconds)
+  kFailed,     ///< numerical trouble (Solve::stoppedBy); the last state stays
+};
+
+/// What stays the same during one solve; made anew by a mode switch.
+struct SolveFacts {
+  std::filesystem::path scene_path;
+  std::string scene_name;
+  SolveOptions options;            ///< as asked for; `error` and `mode` follow the commands
+  std::string mode, form_factors;  ///< keys: what `auto` became
+  std::vector<PlanDecision> plan;
+  Diagnostics diagnostics;
+  std::size_t triangles = 0;  ///< of the scene
+  std::size_t surfaces = 0, patches = 0, elements = 0, vertices = 0;
+  double load_seconds = 0, mesh_seconds = 0;
+};
+
+/// One moment of the session. Everything it points to is immutable.
+struct SessionState {
+  std::uint64_t version = 0;   ///< one more at each publication
+  std::uint64_t epoch = 0;     ///< one more at each new mesh; 0: none yet
+  std::uint64_t commands = 0;  ///< how many of the commands sent are carried out
+  SessionPhase phase = SessionPhase::kEmpty;
+  std::string task;                         ///< while loading: what is being done, such as "reading room.obj"
+  std::shared_ptr<const SolveFacts> facts;  ///< null before the first scene
+  std::shared_ptr<const Snapshot> snapshot;  ///< the last good one; null before the first scene
+  std::shared_ptr<const std::vector<HistoryEntry>> history;  ///< of this solve, up to the snapshot
+  Measures measures;                                         ///< as of this moment
+  double progress = 0;                                       ///< Solve::progress
+  std::size_t kept_bytes = 0;                                ///< memory held by kept columns
+  std::uint64_t drawn = 0;                                   ///< hemicubes drawn
+  std::string stopped_by;                                    ///< Solve::stoppedBy
+  std::uint64_t problems = 0;    ///< how many commands or solves have failed so far
+  std::optional<Error> problem;  ///< the last failure
+};
+
+struct SessionSetup {
+  /// For the solver thread alone: made and destroyed by the caller, current nowhere, outlives the session.
+  /// Null: methods that draw fail with an Error.
+  gl::Context* gl = nullptr;
+  /// Called on the solver thread after each publication.
+  std::function<void()> wake;
+};
+
+/// All member functions may be called from any thread and return at once; only the destructor waits, for one
+/// step (or the end of one phase of loading) at most.
+class Session {
+ public:
+  explicit Session(SessionSetup setup);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  // Commands, carried out in order between two steps. What fails leaves the session as it was and is
+  // published as `problem`.
+
+  /// Reads a scene and solves it. The scene before goes on being shown, and is gone only when this one is
+  /// ready.
+  void open(std::filesystem::path scene, SolveOptions options);
+  /// The present scene again from the start, with these options.
+  void restart(SolveOptions options);
+  void pause();
+  void resume();
+  /// `shots` more steps, then a pause.
+  void step(std::uint64_t shots);
+  /// Another iteration mode; what was shot and received stays.
+  void setMode(std::string key);
+  /// Another error to aim for (SolveOptions::error); goes on where it is not reached.
+  void setError(double error);
+
+  /// How many commands were sent so far; they are carried out when latest()->commands says the same.
+  std::uint64_t sent() const;
+  /// Never null.
+  std::shared_ptr<const SessionState> latest() const;
+
+  /// Least time between two publications while running [s]; at least (and by default) 1/30.
+  void setPublishInterval(double seconds);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace unshot
