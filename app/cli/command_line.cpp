@@ -24,7 +24,7 @@ struct CommandRow {
 };
 
 constexpr std::array<CommandRow, 5> kCommands = {
-    {{"view", "Open the viewer (not part of this version yet)", setUpView},
+    {{"view", "Open the viewer on a scene (also without saying view)", setUpView},
      {"solve", "Solve a scene without a window and write pictures, solutions, reports", setUpSolve},
      {"check", "Say what is in a scene, what is wrong with it and what it does not need", setUpCheck},
      {"compare", "Compare two pictures (PNG, HDR), solutions (PLY) or tables of probes (CSV)", setUpCompare},

@@ -16,7 +16,6 @@
 #include "cli/summary.h"
 #include "cli/text.h"
 #include "exit_codes.h"
-#include "gl/shaders.h"
 #include "report/report_json.h"
 #include "scene/obj_reader.h"
 
@@ -85,7 +84,7 @@ int concludeSolve(const Solve& solve, const SolveOptions& options) {
 
 int runSolve(const SolveRequest& request) {
   checkOutputs(request);
-  if (!request.shader_dir.empty()) gl::setShaderDir(request.shader_dir);
+  useShaderDir(request.shader_dir);
   std::vector<Probe> probes;
   if (!request.probe.empty()) probes = readProbes(request.probe);
   Progress progress(request.options.max_seconds.value_or(0));

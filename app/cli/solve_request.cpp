@@ -6,16 +6,10 @@
 #include "base/error.h"
 #include "base/parse.h"
 #include "export/atomic_file.h"
-#include "formfactor/methods.h"
-#include "gl/context.h"
-#include "mesh/build.h"
 #include "render/display_modes.h"
-#include "solver/modes.h"
 
 namespace unshot {
 namespace {
-
-constexpr double kBytesPerMb = 1e6;
 
 [[noreturn]] void refuse(const std::string& message, const std::string& advice) {
   throw Error(ErrorKind::kUsage, message, {}, advice);
@@ -23,12 +17,6 @@ constexpr double kBytesPerMb = 1e6;
 
 std::optional<glm::dvec3> vectorOf(const std::string& text) {
   return text.empty() ? std::nullopt : parseVector(text);
-}
-
-Check emitText() {
-  return [](const std::string& text) -> std::string {
-    return text == "both" || text == "front" ? "" : "'" + text + "' is neither both nor front";
-  };
 }
 
 bool samePath(const std::filesystem::path& a, const std::filesystem::path& b) {
@@ -47,53 +35,10 @@ bool SolveRequest::needsPicture() const {
                      [](const Output& o) { return o.exporter->needs != PictureNeed::kNoPicture; });
 }
 
-SolveArguments::SolveArguments(Command& command) : outputs_(exporters().size()) {
+SolveArguments::SolveArguments(Command& command) : solver_(command, false), outputs_(exporters().size()) {
   command.argument("SCENE.obj", scene_, "The scene: Wavefront OBJ with MTL");
-  addSolver(command);
-  addMesh(command);
-  addLimits(command);
   addOutputs(command);
   addPicture(command);
-}
-
-void SolveArguments::addSolver(Command& command) {
-  command.group("How to solve");
-  const auto modes = iterationModes();
-  const auto methods = formFactorMethods();
-  command.add("--mode", options_.mode, "M", "Iteration: " + keysOf(modes, true) + " (default auto)",
-              keyOf(modes, true));
-  command.add("--form-factors", options_.form_factors, "F",
-              "Form factors: " + keysOf(methods, true) + " (default auto)", keyOf(methods, true));
-  command.add(
-      "--hemicube", options_.hemicube_resolution, "N",
-      "Pixels along an edge of the hemicube, even, 16 to 4096 (default 64); lights get up to 4 times as many",
-      wholeNumber(16, 4096, true));
-  command.add("--emit", emit_, "both|front", "Sides on which light sources emit (default both)", emitText());
-  command.add("--keep", kept_mb_, "MB", "Memory for form factors that are kept [MB] (default 1074)",
-              wholeNumber(0, 1'000'000));
-  command.add("--seed", options_.seed, "N", "Start of the random numbers (default 1)", wholeNumber(0));
-  command.add("--gl", gl_, "P", "Provider of OpenGL: " + keysOf(gl::providers(), true) + " (default auto)",
-              keyOf(gl::providers(), true));
-  command.add("--shader-dir", shader_dir_, "DIR", "Take shaders from this folder where it has them",
-              fileName());
-}
-
-void SolveArguments::addMesh(Command& command) {
-  command.group("Mesh");
-  command.add("--elements", options_.elements, "N",
-              "Elements over all lit sides, within 10 % (default 10000)", wholeNumber(1, kMostElements));
-  command.add("--element-size", options_.element_size, "S", "Edge of an element [m]", positiveNumber());
-  command.exclude("--elements", "--element-size");
-}
-
-void SolveArguments::addLimits(Command& command) {
-  command.group("When to stop");
-  command.add("--error", options_.error, "X", "Stop when this fraction of the power is unshot (default 0.01)",
-              numberWithin(0, 1, {}, true));
-  command.add("--max-seconds", options_.max_seconds, "T", "Stop after this time [s] and write the result",
-              positiveNumber());
-  command.add("--max-shots", options_.max_shots, "N", "Stop after so many shots and write the result",
-              wholeNumber(1));
 }
 
 void SolveArguments::addOutputs(Command& command) {
@@ -131,12 +76,9 @@ void SolveArguments::addPicture(Command& command) {
 SolveRequest SolveArguments::request() const {
   SolveRequest request;
   request.scene = scene_;
-  request.options = options_;
-  request.options.emit_front_only = emit_ == "front";
-  if (kept_mb_)
-    request.options.kept_bytes = static_cast<std::size_t>(static_cast<double>(*kept_mb_) * kBytesPerMb);
-  request.gl = gl_;
-  request.shader_dir = shader_dir_;
+  request.options = solver_.options();
+  request.gl = solver_.gl();
+  request.shader_dir = solver_.shaderDir();
   request.probe = probe_;
   request.picture = picture_;
   request.picture.linear = false;
@@ -182,11 +124,6 @@ void checkOutputs(const SolveRequest& request) {
           "a file name for each");
     }
     checkWritable(output.path);
-  }
-  std::error_code error;
-  if (!request.shader_dir.empty() && !std::filesystem::is_directory(request.shader_dir, error)) {
-    throw Error(ErrorKind::kEnvironment, "there is no such folder", request.shader_dir.string(),
-                "the folder shaders/ of the source, or no --shader-dir");
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/options.h"
+#include "cli/solver_arguments.h"
 #include "export/exporters.h"
 #include "render/picture.h"
 #include "session/solve.h"
@@ -39,15 +40,11 @@ class SolveArguments {
   SolveRequest request() const;
 
  private:
-  void addSolver(Command& command);
-  void addMesh(Command& command);
-  void addLimits(Command& command);
   void addPicture(Command& command);
   void addOutputs(Command& command);
 
-  SolveOptions options_;
-  std::string scene_, gl_ = "auto", shader_dir_, probe_, emit_ = "both";
-  std::optional<std::uint64_t> kept_mb_;
+  std::string scene_, probe_;
+  SolverArguments solver_;
   PictureOptions picture_;
   std::string size_, eye_, at_, up_;
   std::vector<std::string> outputs_;  ///< one per exporter, empty where not asked for

@@ -1,19 +1,82 @@
+#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "base/error.h"
+#include "base/parse.h"
 #include "cli/commands.h"
+#include "cli/solver_arguments.h"
+#include "render/display_modes.h"
+#include "render/picture.h"
+#include "viewer/offscreen.h"
+#include "viewer/window.h"
 
 namespace unshot {
+namespace {
+
+class ViewArguments {
+ public:
+  explicit ViewArguments(Command& command) : solver_(command, true) {
+    command.argument("SCENE.obj", scene_,
+                     "The scene: Wavefront OBJ with MTL (default: the bundled Cornell box)", false);
+    command.group("The window");
+    command.add("--script", script_, "F",
+                "Perform the actions in this file, one a line (unshot list shows them)", fileName());
+    command.add("--size", size_, "WxH", "Size of the window (default 1280x800)", sizeText(kLargestPicture));
+    command.add("--display", display_, "MODE",
+                "What is shown at first: " + keysOf(displayModes(), false) + " (default radiosity)",
+                keyOf(displayModes(), false));
+  }
+
+  int run() const {
+    ViewerSetup setup;
+    setup.scene = scene_.empty() ? std::filesystem::path(UNSHOT_ASSETS_DIR) / "cornell_box.obj"
+                                 : std::filesystem::path(scene_);
+    setup.options = solver_.options();
+    setup.settings.view.display = display_;
+    if (!script_.empty()) {
+      setup.script = readScript(script_);
+      setup.script_name = script_;
+    }
+    useShaderDir(solver_.shaderDir());
+    checkScene(setup.scene);
+    WindowOptions window;
+    if (!size_.empty()) {
+      const std::vector<std::string_view> parts = splitParts(size_, 'x');
+      window = {static_cast<int>(*parseNumber(parts[0])), static_cast<int>(*parseNumber(parts[1])), true};
+    }
+    if (solver_.gl() == "auto" || solver_.gl() == "glfw") return runWindow(std::move(setup), window);
+    if (script_.empty()) {
+      throw Error(
+          ErrorKind::kUsage, "--gl " + solver_.gl() + " opens no window, so the viewer needs a --script", {},
+          "--script FILE, or no --gl, or: unshot solve " + setup.scene.string() + " --png picture.png");
+    }
+    return runOffscreen(std::move(setup), solver_.gl(), window.width, window.height);
+  }
+
+ private:
+  /// What need not wait for a window: a name with nothing behind it.
+  static void checkScene(const std::filesystem::path& scene) {
+    std::error_code error;
+    if (std::filesystem::exists(scene, error)) return;
+    throw Error(ErrorKind::kInput, "there is no such file", scene.string(), "the path of an OBJ file");
+  }
+
+  SolverArguments solver_;
+  std::string scene_, script_, size_, display_ = "radiosity";
+};
+
+}  // namespace
 
 void setUpView(Command& command) {
-  auto scene = std::make_shared<std::string>();
-  command.argument("SCENE.obj", *scene, "The scene", false);
-  command.run = [scene]() -> int {
-    throw Error(
-        ErrorKind::kEnvironment, "this version has no viewer", {},
-        "unshot solve " + (scene->empty() ? std::string("SCENE.obj") : *scene) + " --png picture.png");
-  };
+  command.footer(
+      "H in the window shows keys and mouse. A script has one action a line, # comments, and\n"
+      "wait converged, wait shots N, wait seconds S (any wait also ends where the solve has ended\n"
+      "or is paused). With --gl osmesa or egl a script runs without a window.\n"
+      "\n"
+      "Example: unshot view scene.obj --elements 30000");
+  auto arguments = std::make_shared<ViewArguments>(command);
+  command.run = [arguments] { return arguments->run(); };
 }
 
 }  // namespace unshot

@@ -313,35 +313,73 @@ ViewFigures judgeView(std::span<const std::uint32_t> ids, int width, int height,
   return figures;
 }
 
-Camera automaticCamera(gl::Context& context, const Snapshot& snapshot,
-                       const AutomaticCameraOptions& options) {
-  const Mesh& mesh = *snapshot.mesh;
-  if (mesh.sides.empty()) return {};  // nothing to look at
-  std::vector<CameraCandidate> candidates = cameraCandidates({mesh.bounds_min, mesh.bounds_max}, options);
-  const StateGuard guard(context.functions());
-  const int width = std::clamp(static_cast<int>(std::lround(kLookHeight * options.aspect)), 8, 1024);
-  SidePictures pictures(context, mesh, width);
-  if (pictures.triangles() == 0) return candidates.front().camera;
-  const auto affordable = static_cast<std::size_t>(kDrawnTriangles / pictures.triangles());
-  candidates.resize(std::min(candidates.size(), std::max(kFewestCandidates, affordable)));
+struct CameraSearch::Impl {
+  gl::Context& context;
+  std::shared_ptr<const Snapshot> snapshot;
+  int width;
+  std::vector<CameraCandidate> candidates;
+  std::optional<SidePictures> pictures;
+  std::vector<SideLook> looks;
+  std::vector<ViewFigures> figures;  // of the candidates judged so far
 
-  const std::vector<SideLook> looks = sideLooks(snapshot);
-  std::vector<ViewFigures> figures;
+  const Mesh& mesh() const { return *snapshot->mesh; }
+};
+
+CameraSearch::CameraSearch(gl::Context& context, std::shared_ptr<const Snapshot> snapshot,
+                           const AutomaticCameraOptions& options)
+    : impl_(std::make_unique<Impl>(Impl{context, std::move(snapshot), 0, {}, {}, {}, {}})) {
+  Impl& s = *impl_;
+  if (s.mesh().sides.empty()) return;  // nothing to look at
+  s.candidates = cameraCandidates({s.mesh().bounds_min, s.mesh().bounds_max}, options);
+  s.width = std::clamp(static_cast<int>(std::lround(kLookHeight * options.aspect)), 8, 1024);
+  const StateGuard guard(context.functions());
+  s.pictures.emplace(context, s.mesh(), s.width);
+  const auto triangles = static_cast<double>(std::max(s.pictures->triangles(), 1));
+  const auto affordable = static_cast<std::size_t>(kDrawnTriangles / triangles);
+  s.candidates.resize(std::min(s.candidates.size(), std::max(kFewestCandidates, affordable)));
+  s.looks = sideLooks(*s.snapshot);
+}
+
+CameraSearch::~CameraSearch() = default;
+CameraSearch::CameraSearch(CameraSearch&&) noexcept = default;
+CameraSearch& CameraSearch::operator=(CameraSearch&&) noexcept = default;
+
+bool CameraSearch::step() {
+  Impl& s = *impl_;
+  if (s.figures.size() == s.candidates.size()) return false;
+  const StateGuard guard(s.context.functions());
+  const Camera& camera = s.candidates[s.figures.size()].camera;
+  s.figures.push_back(judgeView(s.pictures->look(camera), s.width, kLookHeight, camera, s.mesh(), s.looks));
+  return true;
+}
+
+Camera CameraSearch::best() const {
+  const Impl& s = *impl_;
+  if (s.candidates.empty()) return {};
   ViewFigures best;
-  for (const CameraCandidate& candidate : candidates) {
-    figures.push_back(
-        judgeView(pictures.look(candidate.camera), width, kLookHeight, candidate.camera, mesh, looks));
-    best.variety = std::max(best.variety, figures.back().variety);
-    best.seen = std::max(best.seen, figures.back().seen);
-    best.lamps = std::max(best.lamps, figures.back().lamps);
+  for (const ViewFigures& f : s.figures) {
+    best.variety = std::max(best.variety, f.variety);
+    best.seen = std::max(best.seen, f.seen);
+    best.lamps = std::max(best.lamps, f.lamps);
   }
   std::size_t chosen = 0;
-  for (std::size_t i = 1; i < candidates.size(); ++i) {
-    if (score(figures[i], best) + candidates[i].prior >
-        score(figures[chosen], best) + candidates[chosen].prior)
-      chosen = i;
+  double most = -1e300;
+  for (std::size_t i = 0; i < s.figures.size(); ++i) {
+    const double points = score(s.figures[i], best) + s.candidates[i].prior;
+    if (points <= most) continue;
+    most = points;
+    chosen = i;
   }
-  return candidates[chosen].camera;
+  return s.candidates[chosen].camera;
+}
+
+Camera automaticCamera(gl::Context& context, const Snapshot& snapshot,
+                       const AutomaticCameraOptions& options) {
+  // The search does not outlive the snapshot here.
+  CameraSearch search(context, std::shared_ptr<const Snapshot>(std::shared_ptr<void>(), &snapshot), options);
+  while (search.step()) {
+  }
+  return search.best();
 }
 
 }  // namespace unshot

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -19,8 +20,27 @@ struct AutomaticCameraOptions {
   glm::dvec3 up{0, 1, 0};
 };
 
-/// The best of the candidates. On the thread where `context` is current; draws each of the scene's polygons
-/// some dozens of times.
+/// Looks for the best of the candidates, one at a time, so that a window can go on living meanwhile. All
+/// calls on the thread where `context` is current; each candidate draws all of the scene's polygons once.
+class CameraSearch {
+ public:
+  CameraSearch(gl::Context& context, std::shared_ptr<const Snapshot> snapshot,
+               const AutomaticCameraOptions& options);
+  ~CameraSearch();
+  CameraSearch(CameraSearch&&) noexcept;
+  CameraSearch& operator=(CameraSearch&&) noexcept;
+
+  /// Judges one more candidate; false where none was left.
+  bool step();
+  /// The best of those that were judged.
+  Camera best() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// All of a search at once.
 Camera automaticCamera(gl::Context& context, const Snapshot& snapshot, const AutomaticCameraOptions& options);
 
 // Its parts, for tests.

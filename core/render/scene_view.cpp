@@ -259,19 +259,38 @@ void SceneView::resolve(const LinearTarget& samples, double automatic_exposure, 
   fn.BindVertexArray(0);
 }
 
+double SceneView::meterSamples() {
+  const gl::Functions& fn = context_.functions();
+  const double aspect = static_cast<double>(samples_.width()) / samples_.height();
+  const double height = std::clamp(std::sqrt(kMeteredPixels / aspect), 1.0, double{kMeteredPixels});
+  const int width = std::max(1, static_cast<int>(std::lround(kMeteredPixels / height)));
+  const LinearTarget& small = target(small_, width, static_cast<int>(height));
+  samples_.bind();  // for reading too
+  small.bindForDrawing();
+  fn.BlitFramebuffer(0, 0, samples_.width(), samples_.height(), 0, 0, small.width(), small.height(),
+                     GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  return automaticExposure(small.read());
+}
+
+double SceneView::drawSamples(const Camera& camera, const ViewOptions& options, int width, int height) {
+  const StateGuard guard(context_.functions());
+  const LinearTarget& samples =
+      target(samples_, width * options.supersampling, height * options.supersampling);
+  samples.bind();
+  drawLinear(camera, static_cast<double>(width) / height, {}, options);
+  return displayMode(options.display).tone_mapped && !options.automatic_exposure ? meterSamples() : 1;
+}
+
+void SceneView::showSamples(double automatic_exposure, const ViewOptions& options, const Viewport& viewport) {
+  const StateGuard guard(context_.functions());
+  resolve(samples_, automatic_exposure, options, viewport);
+}
+
 double SceneView::draw(const Camera& camera, const ViewOptions& options, const Viewport& viewport) {
   if (viewport.width <= 0 || viewport.height <= 0) return options.automatic_exposure.value_or(1);
-  const gl::Functions& fn = context_.functions();
-  const StateGuard guard(fn);
-  const double aspect = static_cast<double>(viewport.width) / viewport.height;
-  const double exposure =
-      options.automatic_exposure ? *options.automatic_exposure : exposureFor(camera, aspect, options);
-  const LinearTarget& samples =
-      target(samples_, viewport.width * options.supersampling, viewport.height * options.supersampling);
-  samples.bind();
-  drawLinear(camera, aspect, {}, options);
-  fn.BindFramebuffer(GL_FRAMEBUFFER, guard.drawFramebuffer());
-  resolve(samples, exposure, options, viewport);
+  const double metered = drawSamples(camera, options, viewport.width, viewport.height);
+  const double exposure = options.automatic_exposure.value_or(metered);
+  showSamples(exposure, options, viewport);
   return exposure;
 }
 

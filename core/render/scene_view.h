@@ -46,6 +46,14 @@ class SceneView {
   /// the factor from linear values to about 1 for white, without exposure_ev.
   double draw(const Camera& camera, const ViewOptions& options, const Viewport& viewport);
 
+  // The halves of draw(), for those who choose the exposure in between.
+
+  /// Draws `width` x `height` pixels of samples and returns their automatic exposure (1 for modes that are
+  /// not tone-mapped).
+  double drawSamples(const Camera& camera, const ViewOptions& options, int width, int height);
+  /// Shows what drawSamples() drew, with the same options, in `viewport` of the bound framebuffer.
+  void showSamples(double automatic_exposure, const ViewOptions& options, const Viewport& viewport);
+
   // The two passes by themselves, for pictures in tiles.
 
   /// Automatic exposure of the picture that `camera` takes, from a small copy of it; 1 for modes that are not
@@ -61,6 +69,7 @@ class SceneView {
  private:
   void uploadMesh(const Mesh& mesh);
   void uploadEdges();
+  double meterSamples();
   const LinearTarget& target(LinearTarget& kept, int width, int height);
 
   gl::Context& context_;

@@ -25,6 +25,11 @@ void LinearTarget::bind() const {
   framebuffer_.fn().Viewport(0, 0, width_, height_);
 }
 
+void LinearTarget::bindForDrawing() const {
+  framebuffer_.fn().BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.id());
+  framebuffer_.fn().Viewport(0, 0, width_, height_);
+}
+
 std::vector<glm::vec4> LinearTarget::read() const {
   bind();
   std::vector<glm::vec4> pixels(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));

@@ -19,6 +19,8 @@ class LinearTarget {
   GLuint texture() const { return colour_.id(); }
   /// Binds it for drawing, with a viewport of its size.
   void bind() const;
+  /// Binds it for drawing only; what is bound for reading stays.
+  void bindForDrawing() const;
   /// The pixels, lowest row first. It becomes bound.
   std::vector<glm::vec4> read() const;
 

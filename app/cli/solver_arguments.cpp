@@ -1,0 +1,92 @@
+#include "cli/solver_arguments.h"
+
+#include "base/error.h"
+#include "formfactor/methods.h"
+#include "gl/context.h"
+#include "gl/shaders.h"
+#include "mesh/build.h"
+#include "solver/modes.h"
+
+namespace unshot {
+namespace {
+
+constexpr double kBytesPerMb = 1e6;
+
+Check emitText() {
+  return [](const std::string& text) -> std::string {
+    return text == "both" || text == "front" ? "" : "'" + text + "' is neither both nor front";
+  };
+}
+
+}  // namespace
+
+SolverArguments::SolverArguments(Command& command, bool with_window) {
+  addSolver(command, with_window);
+  addMesh(command);
+  addLimits(command);
+}
+
+void SolverArguments::addSolver(Command& command, bool with_window) {
+  command.group("How to solve");
+  const auto modes = iterationModes();
+  const auto methods = formFactorMethods();
+  command.add("--mode", options_.mode, "M", "Iteration: " + keysOf(modes, true) + " (default auto)",
+              keyOf(modes, true));
+  command.add("--form-factors", options_.form_factors, "F",
+              "Form factors: " + keysOf(methods, true) + " (default auto)", keyOf(methods, true));
+  command.add(
+      "--hemicube", options_.hemicube_resolution, "N",
+      "Pixels along an edge of the hemicube, even, 16 to 4096 (default 64); lights get up to 4 times as many",
+      wholeNumber(16, 4096, true));
+  command.add("--emit", emit_, "both|front", "Sides on which light sources emit (default both)", emitText());
+  command.add("--keep", kept_mb_, "MB", "Memory for form factors that are kept [MB] (default 1074)",
+              wholeNumber(0, 1'000'000));
+  command.add("--seed", options_.seed, "N", "Start of the random numbers (default 1)", wholeNumber(0));
+  const auto providers = gl::providers();
+  const Check headless = keyOf(providers, true);
+  command.add(
+      "--gl", gl_, "P",
+      "Provider of OpenGL: " + keysOf(providers, true) +
+          (with_window ? ", glfw (default auto: a window; without one, a --script is needed)"
+                       : " (default auto)"),
+      [=](const std::string& key) { return with_window && key == "glfw" ? std::string() : headless(key); });
+  command.add("--shader-dir", shader_dir_, "DIR", "Take shaders from this folder where it has them",
+              fileName());
+}
+
+void SolverArguments::addMesh(Command& command) {
+  command.group("Mesh");
+  command.add("--elements", options_.elements, "N",
+              "Elements over all lit sides, within 10 % (default 10000)", wholeNumber(1, kMostElements));
+  command.add("--element-size", options_.element_size, "S", "Edge of an element [m]", positiveNumber());
+  command.exclude("--elements", "--element-size");
+}
+
+void SolverArguments::addLimits(Command& command) {
+  command.group("When to stop");
+  command.add("--error", options_.error, "X", "Stop when this fraction of the power is unshot (default 0.01)",
+              numberWithin(0, 1, {}, true));
+  command.add("--max-seconds", options_.max_seconds, "T", "Stop after this time [s] and write the result",
+              positiveNumber());
+  command.add("--max-shots", options_.max_shots, "N", "Stop after so many shots and write the result",
+              wholeNumber(1));
+}
+
+SolveOptions SolverArguments::options() const {
+  SolveOptions options = options_;
+  options.emit_front_only = emit_ == "front";
+  if (kept_mb_) options.kept_bytes = static_cast<std::size_t>(static_cast<double>(*kept_mb_) * kBytesPerMb);
+  return options;
+}
+
+void useShaderDir(const std::filesystem::path& folder) {
+  if (folder.empty()) return;
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error)) {
+    throw Error(ErrorKind::kEnvironment, "there is no such folder", folder.string(),
+                "the folder shaders/ of the source, or no --shader-dir");
+  }
+  gl::setShaderDir(folder);
+}
+
+}  // namespace unshot

@@ -1,0 +1,318 @@
+#include "viewer/actions.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <array>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/parse.h"
+#include "formfactor/methods.h"
+#include "mesh/build.h"
+#include "render/display_modes.h"
+#include "solver/modes.h"
+#include "viewer/viewer.h"
+
+namespace unshot {
+namespace {
+
+// --- Arguments
+// --------------------------------------------------------------------------------------------------
+
+/// A whole number from `low` to `high`.
+template <std::uint64_t low, std::uint64_t high>
+std::string checkWhole(const std::string& text) {
+  const std::optional<double> number = parseNumber(text);
+  const bool fits = number && *number >= static_cast<double>(low) && *number <= static_cast<double>(high) &&
+                    *number == std::floor(*number);
+  return fits ? std::string()
+              : "'" + text + "' is no whole number from " + std::to_string(low) + " to " +
+                    std::to_string(high);
+}
+
+std::uint64_t whole(const std::string& text) { return static_cast<std::uint64_t>(*parseNumber(text)); }
+
+template <class Row>
+std::string checkKey(std::span<const Row> table, bool with_auto, const std::string& text) {
+  std::string keys = with_auto ? "auto" : "";
+  if (with_auto && text == "auto") return {};
+  for (const Row& row : table) {
+    if (row.info.key == text) return {};
+    keys += (keys.empty() ? "" : ", ") + std::string(row.info.key);
+  }
+  return "there is no '" + text + "'; it is one of " + keys;
+}
+
+std::string checkSwitch(const std::string& text) {
+  return text.empty() || text == "on" || text == "off" ? "" : "'" + text + "' is neither on nor off";
+}
+
+/// "on", "off", or nothing: the other one.
+void setSwitch(bool& value, const std::string& text) { value = text.empty() ? !value : text == "on"; }
+
+std::string checkFraction(const std::string& text) {
+  const std::optional<double> number = parseNumber(text);
+  return number && *number > 0 && *number < 1 ? "" : "'" + text + "' does not lie between 0 and 1";
+}
+
+std::string checkNumber(const std::string& text) {
+  const std::optional<double> number = parseNumber(text);
+  return number && std::abs(*number) <= 100 ? "" : "'" + text + "' is no number from -100 to 100";
+}
+
+std::string checkScale(const std::string& text) {
+  const std::optional<double> number = parseNumber(text);
+  return number && *number >= 0.5 && *number <= 4 ? "" : "'" + text + "' is no number from 0.5 to 4";
+}
+
+std::optional<std::pair<int, int>> sizeOf(const std::string& text) {
+  const std::vector<std::string_view> parts = splitParts(text, 'x');
+  if (parts.size() != 2) return std::nullopt;
+  const std::optional<double> width = parseNumber(parts[0]), height = parseNumber(parts[1]);
+  const auto fits = [](const std::optional<double>& x) {
+    return x && *x >= 200 && *x <= 8192 && *x == std::floor(*x);
+  };
+  if (!fits(width) || !fits(height)) return std::nullopt;
+  return std::pair{static_cast<int>(*width), static_cast<int>(*height)};
+}
+
+std::string checkSize(const std::string& text) {
+  return sizeOf(text) ? "" : "'" + text + "' is no size WIDTHxHEIGHT from 200 to 8192 pixels";
+}
+
+/// ex,ey,ez,ax,ay,az[,fov]
+std::vector<double> numbersOf(const std::string& text) {
+  std::vector<double> numbers;
+  for (const std::string_view part : splitParts(text, ',')) {
+    const std::optional<double> number = parseNumber(part);
+    if (!number || !std::isfinite(*number)) return {};
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+std::string checkCamera(const std::string& text) {
+  const std::vector<double> n = numbersOf(text);
+  if (n.size() != 6 && n.size() != 7) return "'" + text + "' is no camera ex,ey,ez,ax,ay,az[,fov]";
+  if (n[0] == n[3] && n[1] == n[4] && n[2] == n[5]) return "the eye is at the point that it looks at";
+  if (n.size() == 7 && !(n[6] >= 1 && n[6] <= 170)) return "the angle of view must be from 1 to 170 degrees";
+  return {};
+}
+
+// --- What they do
+// -----------------------------------------------------------------------------------------------
+
+void runCamera(Viewer& viewer, const std::string& text) {
+  const std::vector<double> n = numbersOf(text);
+  viewer.setCamera({n[0], n[1], n[2]}, {n[3], n[4], n[5]},
+                   n.size() == 7 ? std::optional<double>(n[6]) : std::nullopt);
+}
+
+void runElements(Viewer& viewer, const std::string& text) {
+  viewer.ui().options.elements = whole(text);
+  viewer.ui().options.element_size.reset();
+  viewer.restart();
+}
+
+void nextDisplay(Viewer& viewer, const std::string&) {
+  std::string& shown = viewer.ui().settings.view.display;
+  const auto modes = displayModes();
+  std::size_t at = 0;
+  while (at < modes.size() && modes[at].info.key != shown) ++at;
+  shown = modes[(at + 1) % modes.size()].info.key;
+  viewer.notice("display: " + std::string(displayMode(shown).info.title));
+}
+
+constexpr Shortcut kNone{};
+
+const std::
+    array
+        kActions =
+            {
+                Action{"open", "PATH", "Open a scene and solve it (or drop a file on the window)", kNone,
+                       [](Viewer& v, const std::string& a) { v.open(a); }},
+                Action{"pause",
+                       "[on|off]",
+                       "Pause the solve, or go on",
+                       {GLFW_KEY_SPACE, false, "Space"},
+                       [](Viewer& v, const std::string& a) {
+                         if (a.empty()) {
+                           v.pauseOrResume();
+                         } else if (a == "on") {
+                           v.pause();
+                         } else {
+                           v.resume();
+                         }
+                       },
+                       checkSwitch},
+                Action{"step",
+                       "[N]",
+                       "Shoot once (or N times), then pause",
+                       {GLFW_KEY_N, false, "N"},
+                       [](Viewer& v, const std::string& a) { v.step(a.empty() ? 1 : whole(a)); },
+                       [](const std::string& a) {
+                         return a.empty() ? std::string() : checkWhole<1, 1'000'000'000>(a);
+                       }},
+                Action{"restart",
+                       "",
+                       "Solve the scene again from the start",
+                       {GLFW_KEY_R, true, "Ctrl+R"},
+                       [](Viewer& v, const std::string&) { v.restart(); }},
+                Action{"mode", "KEY", "Iterate in another way; what was shot and received stays", kNone,
+                       [](Viewer& v, const std::string& a) { v.setMode(a); },
+                       [](const std::string& a) { return checkKey(iterationModes(), true, a); }},
+                Action{"form-factors", "KEY", "Solve again with another form-factor method", kNone,
+                       [](Viewer& v, const std::string& a) {
+                         v.ui().options.form_factors = a;
+                         v.restart();
+                       },
+                       [](const std::string& a) { return checkKey(formFactorMethods(), true, a); }},
+                Action{"elements", "N", "Solve again on a mesh of about N elements", kNone, runElements,
+                       checkWhole<1, kMostElements>},
+                Action{"hemicube", "N", "Solve again with hemicubes of N pixels (even; 0: chosen)", kNone,
+                       [](Viewer& v, const std::string& a) {
+                         v.ui().options.hemicube_resolution = static_cast<std::uint32_t>(whole(a));
+                         v.restart();
+                       },
+                       [](const std::string& a) {
+                         if (a == "0") return std::string();
+                         const std::string wrong = checkWhole<16, 4096>(a);
+                         return wrong.empty() && whole(a) % 2 != 0 ? "'" + a + "' is not even" : wrong;
+                       }},
+                Action{"error", "X", "Stop when this fraction of the power is unshot", kNone,
+                       [](Viewer& v, const std::string& a) { v.setError(*parseNumber(a)); }, checkFraction},
+                Action{"display", "KEY", "What is shown: a display mode", kNone,
+                       [](Viewer& v, const std::string& a) { v.ui().settings.view.display = a; },
+                       [](const std::string& a) { return checkKey(displayModes(), false, a); }},
+                Action{"next-display", "", "The next display mode", {GLFW_KEY_M, false, "M"}, nextDisplay},
+                Action{"radiosity",
+                       "[on|off]",
+                       "With or without radiosity: all light, or only what comes straight from lamps",
+                       {GLFW_KEY_B, false, "B"},
+                       [](Viewer& v, const std::string& a) { setSwitch(v.ui().settings.view.indirect, a); },
+                       checkSwitch},
+                Action{"ambient",
+                       "[on|off]",
+                       "Add the estimate of light still unshot to the picture",
+                       {GLFW_KEY_G, false, "G"},
+                       [](Viewer& v, const std::string& a) { setSwitch(v.ui().settings.view.ambient, a); },
+                       checkSwitch},
+                Action{"exposure", "EV", "Stops brighter than the automatic exposure", kNone,
+                       [](Viewer& v, const std::string& a) {
+                         v.ui().settings.view.exposure_ev = *parseNumber(a);
+                       },
+                       checkNumber},
+                Action{"brighter",
+                       "",
+                       "Half a stop brighter",
+                       {GLFW_KEY_EQUAL, false, "+"},
+                       [](Viewer& v, const std::string&) { v.ui().settings.view.exposure_ev += 0.5; }},
+                Action{"darker",
+                       "",
+                       "Half a stop darker",
+                       {GLFW_KEY_MINUS, false, "\u2212"},
+                       [](Viewer& v, const std::string&) { v.ui().settings.view.exposure_ev -= 0.5; }},
+                Action{"lock-exposure",
+                       "[on|off]",
+                       "Keep the present exposure, or follow the light",
+                       {GLFW_KEY_L, false, "L"},
+                       [](Viewer& v, const std::string& a) { setSwitch(v.ui().settings.exposure_locked, a); },
+                       checkSwitch},
+                Action{"frame",
+                       "",
+                       "Back to the camera chosen for the scene",
+                       {GLFW_KEY_F, false, "F"},
+                       [](Viewer& v, const std::string&) { v.frameScene(); },
+                       nullptr,
+                       true},
+                Action{"camera", "EX,EY,EZ,AX,AY,AZ[,FOV]",
+                       "Stand at E and look at A, in the file's coordinates", kNone, runCamera, checkCamera,
+                       true},
+                Action{"panel",
+                       "[on|off]",
+                       "Show or hide the panel",
+                       {GLFW_KEY_TAB, false, "Tab"},
+                       [](Viewer& v, const std::string& a) { setSwitch(v.ui().panel, a); },
+                       checkSwitch},
+                Action{"help",
+                       "[on|off]",
+                       "Show or hide this help",
+                       {GLFW_KEY_H, false, "H"},
+                       [](Viewer& v, const std::string& a) { setSwitch(v.ui().help, a); },
+                       checkSwitch},
+                Action{
+                    "dismiss",
+                    "",
+                    "Close the message or the help",
+                    {GLFW_KEY_ESCAPE, false, "Esc"},
+                    [](Viewer& v, const std::string&) { v.dismiss(); }},
+                Action{"plot", "shots|seconds", "What the curve runs against",
+                       kNone, [](Viewer& v, const std::string& a) { v.ui().plot_shots = a == "shots"; },
+                       [](const std::string& a) {
+                         return a == "shots" || a == "seconds" ? std::string()
+                                                               : "'" + a + "' is neither shots nor seconds";
+                       }},
+                Action{
+                    "size", "WxH", "Make the window this large [px]", kNone,
+                    [](Viewer& v, const std::string& a) {
+                      const auto size = sizeOf(a);
+                      v.resizeWindow(size->first, size->second);
+                    },
+                    checkSize},
+                Action{"scale", "S", "Size of panels and text, 1 is normal", kNone,
+                       [](Viewer& v, const std::string& a) { v.setScale(*parseNumber(a)); }, checkScale},
+                Action{"screenshot",
+                       "[PATH]",
+                       "Write what the window shows as PNG",
+                       {GLFW_KEY_F12, false, "F12"},
+                       [](Viewer& v, const std::string& a) { v.screenshot(a, true); },
+                       nullptr,
+                       true},
+                Action{"screenshot-scene",
+                       "[PATH]",
+                       "The same without panels",
+                       {GLFW_KEY_F12, true, "Ctrl+F12"},
+                       [](Viewer& v, const std::string& a) { v.screenshot(a, false); },
+                       nullptr,
+                       true},
+                Action{"quit",
+                       "",
+                       "Close the window",
+                       {GLFW_KEY_Q, true, "Ctrl+Q"},
+                       [](Viewer& v, const std::string&) { v.close(); }},
+};
+
+}  // namespace
+
+std::span<const Action> actions() { return kActions; }
+
+const Action& findAction(std::string_view key) {
+  for (const Action& action : kActions) {
+    if (action.key == key) return action;
+  }
+  std::string keys = "wait";
+  for (const Action& action : kActions) keys += ", " + std::string(action.key);
+  throw Error(ErrorKind::kUsage, "there is no action '" + std::string(key) + "'", {}, "one of: " + keys);
+}
+
+std::string checkArgument(const Action& action, const std::string& argument) {
+  if (action.argument.empty()) {
+    return argument.empty() ? "" : "'" + std::string(action.key) + "' takes no argument";
+  }
+  if (argument.empty() && action.needsArgument())
+    return "'" + std::string(action.key) + "' needs " + std::string(action.argument);
+  return action.check ? action.check(argument) : "";
+}
+
+const Action* actionOfKey(int key, bool ctrl) {
+  if (key == GLFW_KEY_KP_ADD) key = GLFW_KEY_EQUAL;
+  if (key == GLFW_KEY_KP_SUBTRACT) key = GLFW_KEY_MINUS;
+  for (const Action& action : kActions) {
+    if (action.shortcut.key != 0 && action.shortcut.key == key && action.shortcut.ctrl == ctrl)
+      return &action;
+  }
+  return nullptr;
+}
+
+}  // namespace unshot

@@ -1,0 +1,46 @@
+// The table of named actions: what keys, buttons and scripts can do. A new action is a row.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace unshot {
+
+class Viewer;
+
+/// A key as GLFW numbers it (letters and digits are their ASCII codes); 0: none.
+struct Shortcut {
+  int key = 0;
+  bool ctrl = false;
+  std::string_view text;  ///< as shown: "Ctrl+F12"
+};
+
+struct Action {
+  std::string_view key;       ///< name in scripts
+  std::string_view argument;  ///< placeholder in help, "[N]" where it may be missing; empty: takes none
+  std::string_view help;      ///< one line
+  Shortcut shortcut;          ///< performs it without argument
+  /// Throws Error (kUsage) for an argument that it cannot use.
+  void (*run)(Viewer& viewer, const std::string& argument);
+  /// Empty where the argument is one that run() may take, else what is wrong with it; for checking scripts
+  /// before they run. Null: any text, none only where `argument` is empty or in brackets.
+  std::string (*check)(const std::string& argument) = nullptr;
+  /// A script waits with it until the scene is loaded, framed, and earlier commands are carried out.
+  bool when_settled = false;
+
+  bool needsArgument() const { return !argument.empty() && argument.front() != '['; }
+};
+
+std::span<const Action> actions();
+
+/// Throws a usage Error that lists them.
+const Action& findAction(std::string_view key);
+
+/// What is wrong with an action's argument, or nothing.
+std::string checkArgument(const Action& action, const std::string& argument);
+
+/// The action that a key stands for, or null.
+const Action* actionOfKey(int key, bool ctrl);
+
+}  // namespace unshot

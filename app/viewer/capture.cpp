@@ -1,0 +1,95 @@
+// Screenshots: the window's content drawn once more, without hurry, into a framebuffer of its own.
+#include <cctype>
+
+#include "export/atomic_file.h"
+#include "export/image_files.h"
+#include "viewer/panels.h"
+#include "viewer/viewer.h"
+
+namespace unshot {
+namespace {
+
+constexpr int kSamplesAlongPixel = 3;
+constexpr double kMostSamples = 3e7;  // 16 bytes each
+
+// A framebuffer of 8 bits a channel that can be read back.
+class Canvas {
+ public:
+  Canvas(gl::Context& context, int width, int height)
+      : fn_(context.functions()), texture_(context), framebuffer_(context), width_(width), height_(height) {
+    fn_.BindTexture(GL_TEXTURE_2D, texture_.id());
+    fn_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+    fn_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    fn_.BindTexture(GL_TEXTURE_2D, 0);
+    fn_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
+    fn_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_.id(), 0);
+    framebuffer_.checkComplete("a screenshot");
+  }
+
+  GLuint framebuffer() const { return framebuffer_.id(); }
+
+  /// The left `width` columns.
+  Image8 read(int width) const {
+    std::vector<std::uint8_t> pixels(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height_));
+    fn_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
+    fn_.ReadPixels(0, 0, width, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+    Image8 image{width, height_, {}};
+    image.rgb.reserve(pixels.size() / 4 * 3);
+    for (int y = height_ - 1; y >= 0; --y) {
+      const std::uint8_t* row = &pixels[4 * static_cast<std::size_t>(y) * static_cast<std::size_t>(width)];
+      for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x)
+        image.rgb.insert(image.rgb.end(), row + 4 * x, row + 4 * x + 3);
+    }
+    return image;
+  }
+
+ private:
+  const gl::Functions& fn_;
+  gl::Texture texture_;
+  gl::Framebuffer framebuffer_;
+  int width_, height_;
+};
+
+/// unshot-SCENE-001.png in the working folder, the first number that is free.
+std::filesystem::path newPictureName(const std::string& scene) {
+  std::string stem = "unshot";
+  if (!scene.empty()) stem += "-" + scene;
+  for (char& c : stem) {
+    if (c == '/' || c == '\\' || std::iscntrl(static_cast<unsigned char>(c))) c = '_';
+  }
+  for (int number = 1;; ++number) {
+    std::string digits = std::to_string(number);
+    digits.insert(0, digits.size() < 3 ? 3 - digits.size() : 0, '0');
+    const std::filesystem::path path = std::filesystem::absolute(stem + "-" + digits + ".png");
+    if (!std::filesystem::exists(path)) return path;
+  }
+}
+
+}  // namespace
+
+void Viewer::screenshot(std::filesystem::path path, bool with_panels) {
+  if (path.empty()) path = newPictureName(state_->facts ? state_->facts->scene_name : "");
+  checkWritable(path);
+  capture_ = Capture{std::move(path), with_panels};
+}
+
+void Viewer::capture(int width, int height, int scene_width) {
+  const Capture wanted = *capture_;
+  capture_.reset();
+  try {
+    const StateGuard guard(setup_.display->functions());
+    if (!scene_.empty() && state_->facts && framed_scene_ == state_->facts->scene_path) {
+      int samples = kSamplesAlongPixel;
+      while (samples > 1 && 1.0 * width * height * samples * samples > kMostSamples) --samples;
+      scene_.draw(navigator_.camera(), ui_.settings, scene_width, height, samples, -1);
+    }
+    const Canvas canvas(*setup_.display, width, height);
+    paint(canvas.framebuffer(), width, height, wanted.with_panels);
+    writePng(wanted.path, canvas.read(wanted.with_panels ? width : scene_width));
+    notice("written: " + wanted.path.string());
+  } catch (const Error& error) {
+    fail(error);
+  }
+}
+
+}  // namespace unshot

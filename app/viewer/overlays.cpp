@@ -1,0 +1,102 @@
+// What lies over the scene: messages, help, what is being loaded.
+#include <algorithm>
+#include <array>
+
+#include "viewer/actions.h"
+#include "viewer/panels.h"
+
+namespace unshot {
+namespace {
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
+                                    ImGuiWindowFlags_NoFocusOnAppearing;
+
+struct MouseRow {
+  const char* keys;
+  const char* what;
+};
+
+constexpr std::array<MouseRow, 7> kMouse = {{{"Left drag", "Orbit around the point looked at"},
+                                             {"Right drag", "Look around"},
+                                             {"Middle drag, Shift+left", "Move sideways and up"},
+                                             {"Wheel", "Nearer, farther"},
+                                             {"W A S D, Q E", "Fly; down and up. Shift: faster"},
+                                             {"Wheel while looking", "Speed of flight"},
+                                             {"Drop a file", "Open an OBJ scene"}}};
+
+void helpRow(const char* keys, const std::string& what) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(keys);
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(what.c_str());
+}
+
+void helpWindow(Viewer& viewer, float middle) {
+  const float height = ImGui::GetIO().DisplaySize.y;
+  ImGui::SetNextWindowPos({middle, height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {2 * middle, height});
+  ImGui::SetNextWindowBgAlpha(0.94f);
+  ImGui::Begin("help", nullptr, kFixed);
+  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+    for (const MouseRow& row : kMouse) helpRow(row.keys, row.what);
+    for (const Action& action : actions()) {
+      if (action.shortcut.key != 0)
+        helpRow(std::string(action.shortcut.text).c_str(), std::string(action.help));
+    }
+    ImGui::EndTable();
+  }
+  ImGui::End();
+  (void)viewer;
+}
+
+void errorWindow(Viewer& viewer, float middle) {
+  const Error& error = *viewer.error();
+  const float size = ImGui::GetFontSize();
+  ImGui::SetNextWindowPos({middle, size}, ImGuiCond_Always, {0.5f, 0});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.24f, 0.09f, 0.08f, 0.96f));
+  ImGui::PushStyleColor(ImGuiCol_Border, ImVec4(0.75f, 0.3f, 0.25f, 1));
+  ImGui::Begin("message", nullptr, kFixed);
+  ImGui::PushTextWrapPos(std::min(2 * middle - 4 * size, 36 * size));
+  if (!error.where().empty()) ImGui::TextUnformatted(error.where().c_str());
+  ImGui::TextUnformatted(error.what());
+  if (!error.advice().empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.9f, 0.75f, 0.65f, 1));
+    ImGui::TextUnformatted(("Try: " + error.advice()).c_str());
+    ImGui::PopStyleColor();
+  }
+  ImGui::PopTextWrapPos();
+  if (ImGui::Button("Close")) viewer.perform("dismiss");
+  ImGui::End();
+  ImGui::PopStyleColor(2);
+}
+
+void line(const char* id, const std::string& text, ImVec2 at, ImVec2 pivot) {
+  ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
+  ImGui::SetNextWindowBgAlpha(0.85f);
+  ImGui::Begin(id, nullptr, kFixed | ImGuiWindowFlags_NoInputs);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::End();
+}
+
+}  // namespace
+
+void buildOverlays(Viewer& viewer, int scene_width, const std::string& notice, bool framing) {
+  const float size = ImGui::GetFontSize();
+  const float height = ImGui::GetIO().DisplaySize.y;
+  const float middle = static_cast<float>(scene_width) / 2;
+  const SessionState& state = viewer.state();
+  if (state.phase == SessionPhase::kLoading) {
+    line("loading", state.task + " \u2026", {middle, height / 2}, {0.5f, 0.5f});
+  } else if (framing && state.facts) {
+    line("framing", "looking for a good view \u2026", {middle, height / 2}, {0.5f, 0.5f});
+  } else if (state.phase == SessionPhase::kEmpty && !viewer.error()) {
+    line("empty", "Drop an OBJ scene here", {middle, height / 2}, {0.5f, 0.5f});
+  }
+  if (viewer.ui().help) helpWindow(viewer, middle);
+  if (viewer.error()) errorWindow(viewer, middle);
+  if (!notice.empty()) line("notice", notice, {middle, height - size}, {0.5f, 1});
+}
+
+}  // namespace unshot

@@ -1,0 +1,391 @@
+#include "viewer/panels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "base/text.h"
+#include "formfactor/methods.h"
+#include "mesh/build.h"
+#include "render/display_modes.h"
+#include "solver/modes.h"
+#include "viewer/plot.h"
+#include "viewer/theme.h"
+
+namespace unshot {
+namespace {
+
+constexpr double kPanelWidth = 304;  // at scale 1 [px]
+
+void tooltip(std::string_view text) {
+  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(20 * ImGui::GetFontSize());
+  ImGui::TextUnformatted(text.data(), text.data() + text.size());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+/// A label on the left; what follows takes the rest of the line.
+void label(const char* text, std::string_view tip = {}) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(text);
+  tooltip(tip);
+  ImGui::SameLine(6.6f * ImGui::GetFontSize());
+  ImGui::SetNextItemWidth(-1);
+}
+
+bool section(const char* title) { return ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen); }
+
+/// A choice from a table: `shown` is what stands in the closed box, `current` the key that is marked. Returns
+/// the key chosen, or nothing.
+template <class Row>
+std::string choose(const char* id, std::span<const Row> table, const std::string& current,
+                   const std::string& shown, const char* automatic) {
+  std::string chosen;
+  if (!ImGui::BeginCombo(id, shown.c_str())) return chosen;
+  if (automatic) {
+    if (ImGui::Selectable("Automatic", current == "auto")) chosen = "auto";
+    tooltip(automatic);
+  }
+  for (const Row& row : table) {
+    const std::string title(row.info.title);
+    if (ImGui::Selectable(title.c_str(), current == row.info.key)) chosen = row.info.key;
+    tooltip(row.info.help);
+  }
+  ImGui::EndCombo();
+  return chosen;
+}
+
+template <class Row>
+std::string titleOf(std::span<const Row> table, const std::string& key) {
+  for (const Row& row : table) {
+    if (row.info.key == key) return std::string(row.info.title);
+  }
+  return key;
+}
+
+/// "Hemicube", or with `auto` "Hemicube (automatic)" once it is known what that became.
+template <class Row>
+std::string shownChoice(std::span<const Row> table, const std::string& asked, const std::string& became) {
+  if (asked != "auto") return titleOf(table, asked);
+  return became.empty() ? "Automatic" : titleOf(table, became) + " (automatic)";
+}
+
+struct PhaseLook {
+  const char* text;
+  ImVec4 colour;
+};
+
+PhaseLook lookOf(const SessionState& state) {
+  switch (state.phase) {
+    case SessionPhase::kEmpty:
+      return {"No scene", {0.55f, 0.55f, 0.55f, 1}};
+    case SessionPhase::kLoading:
+      return {"Loading", {0.95f, 0.75f, 0.3f, 1}};
+    case SessionPhase::kRunning:
+      return {"Shooting", {0.98f, 0.72f, 0.25f, 1}};
+    case SessionPhase::kPaused:
+      return {"Paused", {0.6f, 0.7f, 0.85f, 1}};
+    case SessionPhase::kConverged:
+      return {"Converged", {0.5f, 0.85f, 0.5f, 1}};
+    case SessionPhase::kStopped:
+      return {"Limit reached", {0.85f, 0.75f, 0.5f, 1}};
+    case SessionPhase::kFailed:
+      break;
+  }
+  return {"Failed", {0.95f, 0.4f, 0.35f, 1}};
+}
+
+void dot(const ImVec4& colour) {
+  const float size = ImGui::GetFontSize();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::GetWindowDrawList()->AddCircleFilled({at.x + 0.35f * size, at.y + 0.55f * size}, 0.28f * size,
+                                              ImGui::GetColorU32(colour));
+  ImGui::Dummy({0.8f * size, size});
+  ImGui::SameLine(0, 0);
+}
+
+/// Text on the left and text at the right border.
+void line(const char* name, const std::string& value, std::string_view tip = {}) {
+  ImGui::TextDisabled("%s", name);
+  tooltip(tip);
+  const float width = ImGui::CalcTextSize(value.c_str()).x;
+  ImGui::SameLine(std::max(ImGui::GetContentRegionMax().x - width, 6.6f * ImGui::GetFontSize()));
+  ImGui::TextUnformatted(value.c_str());
+}
+
+// --- Sections
+// -----------------------------------------------------------------------------------------------------
+
+void head(Viewer& viewer) {
+  const SessionState& state = viewer.state();
+  const PhaseLook look = lookOf(state);
+  dot(look.colour);
+  ImGui::TextUnformatted(look.text);
+  if (state.facts && state.phase != SessionPhase::kLoading) {
+    const std::string unshot = percentText(state.measures.unshot_fraction) + " unshot";
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(unshot.c_str()).x);
+    ImGui::TextUnformatted(unshot.c_str());
+    tooltip(
+        "Light that is emitted or reflected but not yet shot: sum A |U| / sum A E over patches and channels");
+  }
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const float width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
+  const bool paused = state.phase == SessionPhase::kPaused;
+  const bool can_pause = paused || state.phase == SessionPhase::kRunning;
+  ImGui::BeginDisabled(!can_pause);
+  if (ImGui::Button(paused ? "Resume" : "Pause", {width, 0})) viewer.perform("pause");
+  tooltip("Space");
+  ImGui::SameLine();
+  if (ImGui::Button("Step", {width, 0})) viewer.perform("step", ImGui::GetIO().KeyShift ? "10" : "");
+  tooltip("N: the patch chosen next shoots, then the solve pauses. With Shift: ten times");
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!state.facts);
+  if (ImGui::Button("Restart", {width, 0})) viewer.perform("restart");
+  tooltip("Ctrl+R: from the start, nothing shot");
+  ImGui::EndDisabled();
+}
+
+void chooseElements(Viewer& viewer) {
+  static constexpr std::array<std::uint64_t, 7> kChoices = {1'000,   3'000,   10'000,   30'000,
+                                                            100'000, 300'000, 1'000'000};
+  const SessionState& state = viewer.state();
+  const auto& asked = viewer.ui().options.elements;
+  label("Elements",
+        "How finely the surfaces are cut, over all lit sides. Another fineness solves again from the start");
+  const std::string shown =
+      state.facts ? countText(state.facts->elements) : countText(asked.value_or(kDefaultElements));
+  if (!ImGui::BeginCombo("##elements", shown.c_str())) return;
+  for (const std::uint64_t choice : kChoices) {
+    const std::string text = "about " + countText(choice);
+    if (ImGui::Selectable(text.c_str(), asked.value_or(kDefaultElements) == choice))
+      viewer.perform("elements", std::to_string(choice));
+  }
+  ImGui::EndCombo();
+}
+
+void chooseHemicube(Viewer& viewer) {
+  static constexpr std::array<std::uint32_t, 6> kChoices = {0, 32, 64, 128, 256, 512};
+  const std::uint32_t asked = viewer.ui().options.hemicube_resolution;
+  const auto textOf = [](std::uint32_t n) {
+    return n == 0 ? std::string("Automatic") : std::to_string(n) + " px";
+  };
+  label(
+      "Hemicube",
+      "Pixels along an edge of the hemicube; lights get up to four times as many. Another resolution solves "
+      "again from the start");
+  const bool unused = viewer.state().facts && viewer.state().facts->form_factors != "hemicube";
+  ImGui::BeginDisabled(unused);
+  if (ImGui::BeginCombo("##hemicube", textOf(asked).c_str())) {
+    for (const std::uint32_t choice : kChoices) {
+      if (ImGui::Selectable(textOf(choice).c_str(), choice == asked))
+        viewer.perform("hemicube", std::to_string(choice));
+    }
+    ImGui::EndCombo();
+  }
+  ImGui::EndDisabled();
+  if (unused) tooltip("This solve draws no hemicubes");
+}
+
+void chooseError(Viewer& viewer) {
+  struct Choice {
+    const char* key;
+    double error;
+  };
+  static constexpr std::array<Choice, 6> kChoices = {
+      {{"0.1", 0.1}, {"0.03", 0.03}, {"0.01", 0.01}, {"0.003", 0.003}, {"0.001", 0.001}, {"0.0001", 0.0001}}};
+  label("Stop at",
+        "The solve ends when this fraction of the emitted power is unshot; a smaller one goes on from there");
+  const double error = viewer.ui().options.error;
+  if (!ImGui::BeginCombo("##error", (percentText(error) + " unshot").c_str())) return;
+  for (const Choice& choice : kChoices) {
+    if (ImGui::Selectable((percentText(choice.error) + " unshot").c_str(), choice.error == error))
+      viewer.perform("error", choice.key);
+  }
+  ImGui::EndCombo();
+}
+
+void solveSection(Viewer& viewer) {
+  if (!section("Solve")) return;
+  const SessionState& state = viewer.state();
+  const SolveOptions& options = viewer.ui().options;
+  label("Iteration",
+        "How it is chosen what is shot next. B = E + M B has one solution; the ways to it differ. What was "
+        "shot and received stays");
+  const std::string mode =
+      choose("##mode", iterationModes(), options.mode,
+             shownChoice(iterationModes(), options.mode, state.facts ? state.facts->mode : ""),
+             "Progressive refinement, until errors are known");
+  if (!mode.empty()) viewer.perform("mode", mode);
+  label("Form factors",
+        "What part of a patch's light arrives where. Another method solves again from the start");
+  const std::string method = choose(
+      "##method", formFactorMethods(), options.form_factors,
+      shownChoice(formFactorMethods(), options.form_factors, state.facts ? state.facts->form_factors : ""),
+      "Closed form where nothing can occlude, else hemicubes");
+  if (!method.empty()) viewer.perform("form-factors", method);
+  chooseElements(viewer);
+  chooseHemicube(viewer);
+  chooseError(viewer);
+}
+
+void convergenceSection(Viewer& viewer) {
+  if (!section("Convergence")) return;
+  const SessionState& state = viewer.state();
+  const bool shots = viewer.ui().plot_shots;
+  std::vector<PlotPoint> points;
+  if (state.history) {
+    points.reserve(state.history->size() + 1);
+    const auto add = [&](const Measures& m) {
+      points.push_back({shots ? static_cast<double>(m.shots) : m.seconds, m.unshot_fraction});
+    };
+    for (const HistoryEntry& entry : *state.history) add(entry.measures);
+    if (state.facts) add(state.measures);
+  }
+  PlotStyle style;
+  style.x_label = shots ? "shots" : "seconds";
+  style.y_label = "unshot";
+  style.goal = viewer.ui().options.error;
+  style.height = 9.5f * ImGui::GetFontSize();
+  logPlot("##unshot", points, style);
+  if (ImGui::RadioButton("against seconds", !shots)) viewer.perform("plot", "seconds");
+  ImGui::SameLine();
+  if (ImGui::RadioButton("against shots", shots)) viewer.perform("plot", "shots");
+}
+
+void displaySection(Viewer& viewer) {
+  if (!section("Display")) return;
+  ViewerState& ui = viewer.ui();
+  label("Show", "M: the next one");
+  const std::string& shown = ui.settings.view.display;
+  const std::string mode =
+      choose("##display", displayModes(), shown, titleOf(displayModes(), shown), nullptr);
+  if (!mode.empty()) viewer.perform("display", mode);
+  bool on = ui.settings.view.indirect;
+  if (ImGui::Checkbox("Radiosity", &on)) viewer.perform("radiosity", on ? "on" : "off");
+  tooltip(
+      "B: with all light that goes back and forth between surfaces, or without: only what comes straight "
+      "from lamps");
+  ImGui::SameLine(9.0f * ImGui::GetFontSize());
+  ImGui::BeginDisabled(!ui.settings.view.indirect);
+  on = ui.settings.view.ambient;
+  if (ImGui::Checkbox("Ambient term", &on)) viewer.perform("ambient", on ? "on" : "off");
+  tooltip(
+      "G: adds an estimate of the light still unshot, sum A U / sum A / (1 - mean rho), so that a solve in "
+      "its first "
+      "moments looks nearly finished. Never part of the solution");
+  ImGui::EndDisabled();
+  label("Exposure", "Stops (factors of two) brighter than the automatic exposure; + and \u2212");
+  float ev = static_cast<float>(ui.settings.view.exposure_ev);
+  if (ImGui::SliderFloat("##exposure", &ev, -6, 6, "%+.1f EV")) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2f", static_cast<double>(ev));
+    viewer.perform("exposure", text);
+  }
+  on = ui.settings.exposure_locked;
+  if (ImGui::Checkbox("Keep this exposure", &on)) viewer.perform("lock-exposure", on ? "on" : "off");
+  tooltip("L: otherwise it follows what is in view");
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("Reset view").x -
+                  2 * ImGui::GetStyle().FramePadding.x);
+  if (ImGui::Button("Reset view")) viewer.perform("frame");
+  tooltip("F: back to the camera chosen for the scene");
+}
+
+void figuresSection(Viewer& viewer) {
+  if (!section("Figures")) return;
+  const SessionState& state = viewer.state();
+  if (!state.facts) {
+    ImGui::TextDisabled("nothing yet");
+    return;
+  }
+  const SolveFacts& facts = *state.facts;
+  const Rates rates = viewer.rates();
+  const bool running = state.phase == SessionPhase::kRunning;
+  line("Shots",
+       countText(state.measures.shots) +
+           (running ? "  (" + countText(static_cast<std::uint64_t>(rates.shots)) + "/s)" : ""),
+       "How often a patch has shot its unshot radiosity");
+  line("Columns",
+       countText(state.measures.rows) +
+           (running ? "  (" + countText(static_cast<std::uint64_t>(rates.columns)) + "/s)" : ""),
+       "Columns of form factors computed; the others were kept from before");
+  if (state.drawn > 0) line("Hemicubes", countText(state.drawn), "Drawn or traced for the columns");
+  line("Patches, elements", countText(facts.patches) + ", " + countText(facts.elements),
+       "Patches shoot, elements receive; both count lit sides only");
+  line("Time", durationText(state.measures.seconds) + ", CPU " + durationText(state.measures.cpu_seconds),
+       "Of the solve; CPU of the whole program since meshing began");
+  line("Form factors kept", memoryText(static_cast<double>(state.kept_bytes)),
+       "Memory of the columns that are kept");
+  char frame[32];
+  std::snprintf(frame, sizeof frame, "%.1f ms", viewer.frameMilliseconds());
+  line("Frame", frame, "To draw the scene and the panels once");
+  const gl::ContextInfo& gl = viewer.renderer();
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextDisabled("%s, %s", gl.renderer.c_str(), gl.provider.c_str());
+  ImGui::PopTextWrapPos();
+}
+
+void notesSection(Viewer& viewer) {
+  const SessionState& state = viewer.state();
+  if (!state.facts) return;
+  const auto bullet = [](const std::string& text) {
+    ImGui::Bullet();
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+  };
+  if (!state.facts->plan.empty()) {
+    const std::string title = "Left out (" + std::to_string(state.facts->plan.size()) + ")###plan";
+    if (ImGui::CollapsingHeader(title.c_str())) {
+      for (const PlanDecision& d : state.facts->plan) bullet(d.what + ": " + d.why);
+    }
+  }
+  if (!state.facts->diagnostics.empty()) {
+    const std::string title =
+        "Notes on the scene (" + std::to_string(state.facts->diagnostics.size()) + ")###notes";
+    if (ImGui::CollapsingHeader(title.c_str())) {
+      for (const Diagnostic& d : state.facts->diagnostics)
+        bullet((d.where.empty() ? "" : d.where + ": ") + d.message +
+               (d.advice.empty() ? "" : " (" + d.advice + ")"));
+    }
+  }
+}
+
+}  // namespace
+
+int panelWidth(const ViewerState& ui, double scale, int width) {
+  if (!ui.panel) return 0;
+  return std::min(static_cast<int>(std::lround(kPanelWidth * scale)), width / 2);
+}
+
+void buildSidePanel(Viewer& viewer, int left) {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  if (!viewer.ui().panel) return;
+  ImGui::SetNextWindowPos({static_cast<float>(left), 0});
+  ImGui::SetNextWindowSize({window.x - static_cast<float>(left), window.y});
+  ImGui::Begin("panel", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus);
+  // The head stays, what is below scrolls.
+  const SessionState& state = viewer.state();
+  ImGui::TextUnformatted(state.facts ? state.facts->scene_name.c_str() : "Unshot");
+  if (state.facts) tooltip(state.facts->scene_path.string());
+  const char* help = "H: help";
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(help).x);
+  ImGui::TextDisabled("%s", help);
+  head(viewer);
+  ImGui::Separator();
+  ImGui::BeginChild("sections");
+  solveSection(viewer);
+  convergenceSection(viewer);
+  displaySection(viewer);
+  figuresSection(viewer);
+  notesSection(viewer);
+  ImGui::EndChild();
+  ImGui::End();
+}
+
+}  // namespace unshot

@@ -1,0 +1,18 @@
+// What lies over and beside the scene, built with ImGui from the viewer's state. Everything a panel changes
+// goes through a named action.
+#pragma once
+
+#include "viewer/viewer.h"
+
+namespace unshot {
+
+/// Width of the side panel in a window `width` pixels wide; 0 where it is hidden.
+int panelWidth(const ViewerState& ui, double scale, int width);
+
+/// The panel at the right edge, from x = `left` on.
+void buildSidePanel(Viewer& viewer, int left);
+
+/// Messages, help and what is being loaded, over the scene's `scene_width` pixels.
+void buildOverlays(Viewer& viewer, int scene_width, const std::string& notice, bool framing);
+
+}  // namespace unshot

@@ -1,0 +1,378 @@
+#include "viewer/viewer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/clock.h"
+#include "exit_codes.h"
+#include "viewer/actions.h"
+#include "viewer/panels.h"
+#include "viewer/theme.h"
+
+namespace unshot {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kFrameSeconds = 1.0 / 60;
+constexpr double kSnapshotSeconds = 1.0 / 30;
+// New light is drawn so seldom that the solver keeps most of a machine whose CPU draws.
+constexpr double kSoftwareShare = 4;  // times the cost of a frame
+constexpr double kRestSeconds = 0.2;  // without motion, before the picture is sharpened
+constexpr double kFramingSeconds = 0.01;
+constexpr double kNoticeSeconds = 4;
+constexpr double kRateWindow = 1;
+constexpr float kBackground = 26 / 255.0f;  // that of the pictures
+
+bool idle(SessionPhase phase) { return phase != SessionPhase::kRunning && phase != SessionPhase::kLoading; }
+
+}  // namespace
+
+Viewer::GuiContext::GuiContext() {
+  IMGUI_CHECKVERSION();
+  ImGui::SetCurrentContext(ImGui::CreateContext());
+  ImGui::GetIO().IniFilename = nullptr;
+  ImGui::GetIO().LogFilename = nullptr;
+}
+
+Viewer::GuiContext::~GuiContext() { ImGui::DestroyContext(); }
+
+Viewer::Viewer(ViewerSetup setup)
+    : setup_(std::move(setup)),
+      gui_(*setup_.display),
+      scene_(*setup_.display),
+      session_(setup_.session),
+      state_(session_.latest()),
+      script_(setup_.script) {
+  ui_.options = setup_.options;
+  ui_.settings = setup_.settings;
+  setScale(1);
+  if (!setup_.scene.empty()) open(setup_.scene);
+}
+
+Viewer::~Viewer() = default;
+
+const gl::ContextInfo* Viewer::solverRenderer() const {
+  return setup_.session.gl ? &setup_.session.gl->info() : nullptr;
+}
+
+void Viewer::setScale(double scale) {
+  if (scale == scale_) return;
+  scale_ = scale;
+  applyTheme(ImGui::GetIO(), ImGui::GetStyle(), static_cast<float>(scale));
+  gui_.setFonts(*ImGui::GetIO().Fonts);
+  input();
+}
+
+// --- What happens
+// ---------------------------------------------------------------------------------------------
+
+void Viewer::update(double now) {
+  takeState(now);
+  runScript(now);
+  if (!notice_.empty() && now >= notice_until_) {
+    notice_.clear();
+    input();
+  }
+}
+
+void Viewer::takeState(double now) {
+  const std::shared_ptr<const SessionState> latest = session_.latest();
+  if (latest->version == state_->version) return;
+  const bool news = latest->phase != state_->phase || latest->problems != state_->problems;
+  const bool another = latest->epoch != state_->epoch;
+  state_ = latest;
+  if (another) {
+    rate_points_.clear();
+    error_.reset();
+    frame_wanted_ = frame_wanted_ || state_->facts->scene_path != framed_scene_;
+  }
+  noteRates(now);
+  if (state_->problems > problems_seen_ && state_->problem) {
+    problems_seen_ = state_->problems;
+    fail(*state_->problem);
+  }
+  gui_frames_ = std::max(gui_frames_, news || another ? kFramesAfterInput : 0);
+}
+
+void Viewer::noteRates(double now) {
+  rate_points_.push_back({now, state_->measures.shots, state_->measures.rows});
+  while (rate_points_.size() > 2 && rate_points_[1].time < now - kRateWindow) rate_points_.pop_front();
+}
+
+Rates Viewer::rates() const {
+  if (state_->phase != SessionPhase::kRunning || rate_points_.size() < 2) return {};
+  const RatePoint &a = rate_points_.front(), &b = rate_points_.back();
+  const double seconds = b.time - a.time;
+  if (!(seconds > 0)) return {};
+  return {static_cast<double>(b.shots - a.shots) / seconds, static_cast<double>(b.rows - a.rows) / seconds};
+}
+
+void Viewer::perform(std::string_view action, const std::string& argument) {
+  try {
+    const Action& row = findAction(action);
+    const std::string wrong = checkArgument(row, argument);
+    if (!wrong.empty()) throw Error(ErrorKind::kUsage, wrong, {}, "H lists what can be done");
+    row.run(*this, argument);
+  } catch (const Error& error) {
+    fail(error);
+  }
+  input();
+}
+
+void Viewer::key(int key, bool ctrl) {
+  if (const Action* action = actionOfKey(key, ctrl)) perform(action->key);
+}
+
+/// Shown, and remembered for the exit code where nobody may be looking.
+void Viewer::fail(const Error& error) {
+  showError(error);
+  if (exit_code_ == 0 && (!script_.empty() || state_->epoch == 0)) exit_code_ = exitCodeOf(error.kind());
+}
+
+void Viewer::showError(const Error& error) {
+  error_ = error;
+  input();
+}
+
+void Viewer::dismiss() {
+  if (error_) {
+    error_.reset();
+  } else {
+    ui_.help = false;
+  }
+}
+
+void Viewer::notice(std::string text) {
+  notice_ = std::move(text);
+  notice_until_ = wallSeconds() + kNoticeSeconds;
+  input();
+}
+
+void Viewer::open(const std::filesystem::path& scene) { session_.open(scene, ui_.options); }
+
+void Viewer::restart() {
+  if (state_->epoch == 0) {
+    open(setup_.scene);
+  } else {
+    session_.restart(ui_.options);
+  }
+}
+
+void Viewer::setMode(const std::string& key) {
+  ui_.options.mode = key;
+  session_.setMode(key);
+}
+
+void Viewer::setError(double error) {
+  ui_.options.error = error;
+  session_.setError(error);
+}
+
+void Viewer::pauseOrResume() {
+  if (state_->phase == SessionPhase::kPaused) {
+    session_.resume();
+  } else {
+    session_.pause();
+  }
+}
+
+void Viewer::frameScene() { frame_wanted_ = true; }
+
+void Viewer::setCamera(const glm::dvec3& eye, const glm::dvec3& at, std::optional<double> fov_deg) {
+  if (!scene_.snapshot() && !state_->snapshot) {
+    throw Error(ErrorKind::kUsage, "there is no scene to look at yet", {}, "wait for it first: wait shots 1");
+  }
+  const Mesh& mesh = *state_->snapshot->mesh;
+  Camera camera = navigator_.camera();
+  camera.eye = eye - mesh.frame_origin;
+  camera.at = at - mesh.frame_origin;
+  if (fov_deg) camera.fov_deg = *fov_deg;
+  navigator_.reset(camera, {mesh.bounds_min, mesh.bounds_max});
+  frame_wanted_ = false;
+  framed_scene_ = state_->facts->scene_path;
+}
+
+void Viewer::resizeWindow(int width, int height) {
+  if (setup_.resize) setup_.resize(width, height);
+}
+
+// --- The script
+// -----------------------------------------------------------------------------------------------
+
+bool Viewer::settled() const {
+  return session_.sent() == state_->commands && state_->phase != SessionPhase::kLoading && !frame_wanted_ &&
+         !scene_.framing() && !capture_;
+}
+
+bool Viewer::waitIsOver(const ScriptLine& line, double now) {
+  if (wait_began_ < 0) wait_began_ = now;
+  if (session_.sent() != state_->commands) return false;
+  const SessionPhase phase = state_->phase;
+  if (phase != SessionPhase::kRunning && phase != SessionPhase::kLoading && phase != SessionPhase::kPaused)
+    return true;
+  if (line.wait == WaitFor::kSeconds) return now >= wait_began_ + line.amount;
+  // Paused, nothing will happen any more.
+  if (phase == SessionPhase::kPaused) return true;
+  return line.wait == WaitFor::kShots && phase == SessionPhase::kRunning &&
+         static_cast<double>(state_->measures.shots) >= line.amount;
+}
+
+void Viewer::runScript(double now) {
+  while (script_at_ < script_.size() && !closing_ && !capture_) {
+    const ScriptLine& line = script_[script_at_];
+    if (line.wait != WaitFor::kNothing) {
+      if (!waitIsOver(line, now)) return;
+      wait_began_ = -1;
+    } else {
+      if (findAction(line.action).when_settled && !settled()) {
+        // A scene that cannot be opened leaves nothing to settle.
+        const bool nothing = session_.sent() == state_->commands && state_->phase == SessionPhase::kEmpty;
+        if (!nothing) return;
+      }
+      perform(line.action, line.argument);
+    }
+    ++script_at_;
+  }
+}
+
+// --- Frames
+// ---------------------------------------------------------------------------------------------------
+
+double Viewer::nextUpdate() const {
+  double next = notice_.empty() ? kNever : notice_until_;
+  if (script_at_ < script_.size() && script_[script_at_].wait == WaitFor::kSeconds && wait_began_ >= 0)
+    next = std::min(next, wait_began_ + script_[script_at_].amount);
+  return next;
+}
+
+double Viewer::nextFrame(double now) const {
+  const double soon = last_frame_ + kFrameSeconds;
+  if (closing_) return now;
+  if (gui_frames_ > 0 || capture_ || navigator_.moving() || scene_.gliding() || scene_.framing() ||
+      (frame_wanted_ && state_->snapshot))
+    return soon;
+  if (state_->snapshot != scene_.snapshot()) {
+    const double share = renderer().hardware ? 1 : kSoftwareShare;
+    return std::max(last_frame_ + kSnapshotSeconds, last_frame_end_ + share * frame_cost_);
+  }
+  if (!at_rest_drawn_ && idle(state_->phase) && state_->snapshot)
+    return std::max(soon, last_motion_ + kRestSeconds);
+  return kNever;
+}
+
+int Viewer::samplesNow(double now, int width, int height) const {
+  const bool rest = idle(state_->phase) && !navigator_.moving() && now >= last_motion_ + kRestSeconds;
+  const bool hardware = renderer().hardware;
+  int samples = rest ? (hardware ? 3 : 2) : (hardware ? 2 : 1);
+  while (samples > 1 && 1.0 * width * height * samples * samples > 1.2e7) --samples;
+  return samples;
+}
+
+void Viewer::navigate(double seconds, int scene_width, int scene_height) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const Camera before = navigator_.camera();
+  if (!io.WantCaptureMouse && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
+    const glm::dvec2 motion(io.MouseDelta.x, io.MouseDelta.y);
+    if (io.MouseDown[ImGuiMouseButton_Middle] || (io.MouseDown[ImGuiMouseButton_Left] && io.KeyShift)) {
+      navigator_.pan(motion, scene_height);
+    } else if (io.MouseDown[ImGuiMouseButton_Left]) {
+      navigator_.orbit(motion, scene_height);
+    } else if (io.MouseDown[ImGuiMouseButton_Right]) {
+      navigator_.look(motion, scene_height);
+    }
+  }
+  if (!io.WantCaptureMouse && io.MouseWheel != 0) {
+    if (io.MouseDown[ImGuiMouseButton_Right]) {
+      navigator_.scaleSpeed(std::pow(1.25, io.MouseWheel));
+      notice("flying " + std::string(io.MouseWheel > 0 ? "faster" : "slower"));
+    } else {
+      navigator_.zoom(io.MouseWheel);
+    }
+  }
+  glm::dvec3 direction(0.0);
+  if (!io.WantTextInput && !io.KeyCtrl) {
+    const auto axis = [&](int plus, int minus) {
+      return (io.KeysDown[plus] ? 1.0 : 0.0) - (io.KeysDown[minus] ? 1.0 : 0.0);
+    };
+    direction = {axis('D', 'A'), axis('E', 'Q'), axis('W', 'S')};
+  }
+  navigator_.fly(direction, io.KeyShift);
+  navigator_.advance(seconds);
+  const Camera& after = navigator_.camera();
+  if (before.eye != after.eye || before.at != after.at) {
+    last_motion_ = last_frame_;
+    at_rest_drawn_ = false;
+  }
+  if (frame_wanted_ && scene_.snapshot() == state_->snapshot && state_->snapshot &&
+      (state_->measures.shots > 0 || idle(state_->phase))) {
+    frame_wanted_ = false;
+    framed_scene_ = state_->facts->scene_path;
+    scene_.startFraming(static_cast<double>(std::max(scene_width, 1)) / std::max(scene_height, 1));
+  }
+  if (const auto camera = scene_.continueFraming(kFramingSeconds)) {
+    const Mesh& mesh = *scene_.snapshot()->mesh;
+    navigator_.reset(*camera, {mesh.bounds_min, mesh.bounds_max});
+    scene_.snapExposure();
+    last_motion_ = last_frame_;
+    at_rest_drawn_ = false;
+    input();
+  }
+}
+
+void Viewer::takeSnapshot() {
+  if (state_->snapshot == scene_.snapshot()) return;
+  at_rest_drawn_ = false;
+  try {
+    scene_.setSnapshot(state_->snapshot);
+  } catch (const Error& error) {  // too large for the driver: the picture before stays
+    fail(error);
+  }
+}
+
+void Viewer::draw(GLuint framebuffer, int width, int height) {
+  const double now = wallSeconds();
+  const double seconds = std::min(now - last_frame_, 0.1);
+  last_frame_ = now;
+  if (gui_frames_ > 0) --gui_frames_;
+  takeSnapshot();
+  const int scene_width = width - panelWidth(ui_, scale_, width);
+  ImGui::NewFrame();
+  navigate(seconds, scene_width, height);
+  buildSidePanel(*this, scene_width);
+  buildOverlays(*this, scene_width, notice_, scene_.framing() || frame_wanted_);
+  ImGui::Render();
+
+  drew_scene_ = false;
+  // A scene without its camera is not shown: the picture of the one before stays.
+  if (!scene_.empty() && !scene_.framing() && framed_scene_ == state_->facts->scene_path) {
+    const int samples = samplesNow(now, scene_width, height);
+    drew_scene_ = scene_.draw(navigator_.camera(), ui_.settings, scene_width, height, samples, seconds);
+    at_rest_drawn_ = at_rest_drawn_ || (now >= last_motion_ + kRestSeconds && idle(state_->phase));
+  }
+  paint(framebuffer, width, height, true);
+  if (capture_) capture(width, height, scene_width);
+  gl::checkErrors(setup_.display->functions(), "drawing a frame of the viewer");
+}
+
+void Viewer::presented() {
+  last_frame_end_ = wallSeconds();
+  if (!drew_scene_) return;
+  const double cost = last_frame_end_ - last_frame_;
+  frame_cost_ = frame_cost_ == 0 ? cost : 0.8 * frame_cost_ + 0.2 * cost;
+  // What would not be shown need not be made.
+  const double share = renderer().hardware ? 1 : kSoftwareShare;
+  session_.setPublishInterval(std::max(kSnapshotSeconds, share * frame_cost_));
+}
+
+void Viewer::paint(GLuint framebuffer, int width, int height, bool gui) {
+  const gl::Functions& fn = setup_.display->functions();
+  fn.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  fn.Viewport(0, 0, width, height);
+  fn.ClearColor(kBackground, kBackground, kBackground, 1);
+  fn.Clear(GL_COLOR_BUFFER_BIT);
+  scene_.copyTo(0, 0);
+  if (gui) gui_.draw(*ImGui::GetDrawData(), width, height);
+}
+
+}  // namespace unshot

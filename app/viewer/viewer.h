@@ -1,0 +1,185 @@
+// The viewer, whatever window it is in: a live session, the picture of its newest state, the camera and the
+// panels.
+//
+// A host (window.h, offscreen.h) owns the contexts and the inputs: it feeds ImGui's IO, calls update() when
+// something may have happened, and draw() when nextFrame() says so. All calls come from the main thread.
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "session/session.h"
+#include "viewer/gui_renderer.h"
+#include "viewer/navigator.h"
+#include "viewer/scene_display.h"
+#include "viewer/script.h"
+
+namespace unshot {
+
+struct ViewerSetup {
+  gl::Context* display = nullptr;  ///< current on the main thread; outlives the viewer
+  SessionSetup session;
+  std::filesystem::path scene;
+  SolveOptions options;
+  DisplaySettings settings;
+  std::vector<ScriptLine> script;
+  std::string script_name;
+  /// Asks the window for another size [px].
+  std::function<void(int, int)> resize;
+};
+
+/// What the panels show and actions change, besides the session.
+struct ViewerState {
+  SolveOptions options;  ///< of the present or the next solve
+  DisplaySettings settings;
+  bool panel = true;
+  bool help = false;
+  bool plot_shots = false;  ///< the curve against shots instead of seconds
+};
+
+/// Shots and columns a second, over about the last second.
+struct Rates {
+  double shots = 0, columns = 0;
+};
+
+class Viewer {
+ public:
+  explicit Viewer(ViewerSetup setup);
+  ~Viewer();
+  Viewer(const Viewer&) = delete;
+  Viewer& operator=(const Viewer&) = delete;
+
+  // For hosts. Times are wallSeconds().
+
+  /// Takes the session's newest state and runs what the script has next.
+  void update(double now);
+  /// When the next frame is wanted: at most `now` for at once, infinity for not before something happens.
+  double nextFrame(double now) const;
+  /// When update() is wanted without an event.
+  double nextUpdate() const;
+  /// Builds the GUI from ImGui's IO (whose display size it takes) and draws the window's content into
+  /// `framebuffer`.
+  void draw(GLuint framebuffer, int width, int height);
+  /// What draw() drew is on the screen.
+  void presented();
+  /// Something was typed or moved: the next frames react.
+  void input() { gui_frames_ = kFramesAfterInput; }
+  /// A key went down that no text field wants.
+  void key(int key, bool ctrl);
+  /// Size of the GUI: 1 is a font of 15 px.
+  void setScale(double scale);
+  bool closing() const { return closing_; }
+  bool scriptDone() const { return script_at_ >= script_.size(); }
+  /// 0, or the exit code of the first thing that failed in the script or while opening the first scene.
+  int exitCode() const { return exit_code_; }
+
+  // For actions and panels.
+
+  /// Performs an action of the table; what fails is shown as a message.
+  void perform(std::string_view action, const std::string& argument = {});
+  ViewerState& ui() { return ui_; }
+  const SessionState& state() const { return *state_; }
+  const gl::ContextInfo& renderer() const { return setup_.display->info(); }
+  const gl::ContextInfo* solverRenderer() const;
+  const Camera& camera() const { return navigator_.camera(); }
+  double scale() const { return scale_; }
+  double exposure() const { return scene_.exposure(); }
+  Rates rates() const;
+  double frameMilliseconds() const { return 1000 * frame_cost_; }
+
+  void open(const std::filesystem::path& scene);
+  /// Solves again from the start with ui().options.
+  void restart();
+  void setMode(const std::string& key);
+  void setError(double error);
+  void pauseOrResume();
+  void pause() { session_.pause(); }
+  void resume() { session_.resume(); }
+  void step(std::uint64_t shots) { session_.step(shots); }
+  /// Finds the automatic camera again.
+  void frameScene();
+  /// In the coordinates of the scene's file.
+  void setCamera(const glm::dvec3& eye, const glm::dvec3& at, std::optional<double> fov_deg);
+  Navigator& navigator() { return navigator_; }
+  void resizeWindow(int width, int height);
+  /// Writes what the window shows, with its panels or without. An empty path: a new name in the working
+  /// folder.
+  void screenshot(std::filesystem::path path, bool with_panels);
+  /// A line that goes away by itself.
+  void notice(std::string text);
+  void showError(const Error& error);
+  const std::optional<Error>& error() const { return error_; }
+  /// Closes what lies over the scene: the message, else the help.
+  void dismiss();
+  void close() { closing_ = true; }
+
+ private:
+  static constexpr int kFramesAfterInput = 3;  // ImGui needs a second frame to settle
+
+  struct Capture {
+    std::filesystem::path path;
+    bool with_panels = true;
+  };
+  struct RatePoint {
+    double time;
+    std::uint64_t shots, rows;
+  };
+
+  void takeState(double now);
+  void noteRates(double now);
+  void runScript(double now);
+  bool waitIsOver(const ScriptLine& line, double now);
+  bool settled() const;
+  void fail(const Error& error);
+  void navigate(double seconds, int scene_width, int scene_height);
+  int samplesNow(double now, int width, int height) const;
+  void takeSnapshot();
+  void paint(GLuint framebuffer, int width, int height, bool gui);
+  void capture(int width, int height, int scene_width);
+
+  ViewerSetup setup_;
+  struct GuiContext {
+    GuiContext();
+    ~GuiContext();
+  } gui_context_;
+  GuiRenderer gui_;
+  SceneDisplay scene_;
+  Navigator navigator_;
+  Session session_;
+  std::shared_ptr<const SessionState> state_;
+  ViewerState ui_;
+  double scale_ = 0;
+
+  // Frames.
+  int gui_frames_ = kFramesAfterInput;
+  double last_frame_ = 0, last_frame_end_ = 0, last_motion_ = 0;
+  double frame_cost_ = 0;  // of a frame that drew the scene [s]
+  bool drew_scene_ = false;
+  bool at_rest_drawn_ = false;
+
+  // The scene shown.
+  std::filesystem::path framed_scene_;  // the camera is for this one
+  bool frame_wanted_ = true;
+  std::deque<RatePoint> rate_points_;
+
+  // Messages.
+  std::optional<Error> error_;
+  std::uint64_t problems_seen_ = 0;
+  std::string notice_;
+  double notice_until_ = 0;
+
+  // Script.
+  std::vector<ScriptLine> script_;
+  std::size_t script_at_ = 0;
+  double wait_began_ = -1;
+  std::optional<Capture> capture_;
+  int exit_code_ = 0;
+  bool closing_ = false;
+};
+
+}  // namespace unshot

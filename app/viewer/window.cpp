@@ -1,0 +1,127 @@
+#include "viewer/window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/clock.h"
+#include "viewer/glfw_context.h"
+
+namespace unshot {
+namespace {
+
+constexpr double kLongestWait = 3600;
+
+std::string adviceWithoutWindow(const std::filesystem::path& scene) {
+  return "without a window: unshot solve " + (scene.empty() ? std::string("SCENE.obj") : scene.string()) +
+         " --png picture.png";
+}
+
+Viewer& viewerOf(GLFWwindow* window) { return *static_cast<Viewer*>(glfwGetWindowUserPointer(window)); }
+
+void setCallbacks(GLFWwindow* window) {
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
+    Viewer& viewer = viewerOf(w);
+    viewer.input();
+    // On most keyboards + is Shift and another key, so only Ctrl tells shortcuts apart.
+    if (action == GLFW_PRESS && !ImGui::GetIO().WantTextInput)
+      viewer.key(key, (mods & GLFW_MOD_CONTROL) != 0);
+  });
+  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double, double) { viewerOf(w).input(); });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int, int, int) { viewerOf(w).input(); });
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double, double) { viewerOf(w).input(); });
+  glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int) { viewerOf(w).input(); });
+  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { viewerOf(w).input(); });
+  glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { viewerOf(w).input(); });
+  glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float x, float) { viewerOf(w).setScale(x); });
+  glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+    if (count > 0) viewerOf(w).perform("open", paths[0]);
+  });
+}
+
+/// ImGui's inputs from the window, for as long as it lives. Installed after setCallbacks, whose callbacks it
+/// calls.
+struct GuiInput {
+  explicit GuiInput(GLFWwindow* window) { ImGui_ImplGlfw_InitForOther(window, true); }
+  ~GuiInput() { ImGui_ImplGlfw_Shutdown(); }
+  GuiInput(const GuiInput&) = delete;
+  GuiInput& operator=(const GuiInput&) = delete;
+};
+
+/// The size of a first window: not larger than the screen has room for.
+void fitToScreen(WindowOptions& options) {
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  if (!monitor || options.size_given) return;
+  int x = 0, y = 0, width = 0, height = 0;
+  glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
+  if (width > 0) options.width = std::min(options.width, width);
+  if (height > 0) options.height = std::min(options.height, height);
+}
+
+void runLoop(Viewer& viewer, GLFWwindow* window) {
+  while (!viewer.closing()) {
+    double now = wallSeconds();
+    viewer.update(now);
+    const double next = std::min(viewer.nextFrame(now), viewer.nextUpdate());
+    if (next > now) {
+      glfwWaitEventsTimeout(std::min(next - now, kLongestWait));
+    } else {
+      glfwPollEvents();
+    }
+    if (glfwWindowShouldClose(window)) viewer.close();
+    now = wallSeconds();
+    viewer.update(now);
+    if (viewer.closing()) return;
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window, &width, &height);
+    if (width <= 0 || height <= 0 || viewer.nextFrame(now) > now) continue;
+    ImGui_ImplGlfw_NewFrame();
+    viewer.draw(0, width, height);
+    glfwSwapBuffers(window);
+    viewer.presented();
+  }
+}
+
+}  // namespace
+
+int runWindow(ViewerSetup setup, const WindowOptions& wanted) {
+  WindowOptions options = wanted;
+  const std::filesystem::path scene = setup.scene;
+  try {
+    const Glfw glfw;
+    fitToScreen(options);
+    // The solver's context lives in a window of its own that is never shown.
+    const std::unique_ptr<GlfwContext> solver = GlfwContext::create(16, 16, "unshot solver", false);
+    const std::unique_ptr<GlfwContext> display =
+        GlfwContext::create(options.width, options.height, "Unshot", true);
+    GLFWwindow* window = display->window();
+    display->makeCurrent();
+    glfwSwapInterval(1);
+    setup.display = display.get();
+    setup.session = {solver.get(), [] { glfwPostEmptyEvent(); }};
+    setup.resize = [window](int width, int height) { glfwSetWindowSize(window, width, height); };
+    int code = 0;
+    {
+      Viewer viewer(std::move(setup));
+      glfwSetWindowUserPointer(window, &viewer);
+      setCallbacks(window);
+      const GuiInput input(window);
+      float scale = 1;
+      glfwGetWindowContentScale(window, &scale, nullptr);
+      viewer.setScale(std::clamp(static_cast<double>(scale), 0.5, 4.0));
+      runLoop(viewer, window);
+      // The window goes at once; the solver may need a moment to end its step.
+      glfwHideWindow(window);
+      code = viewer.exitCode();
+    }
+    return code;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kEnvironment || !error.advice().empty()) throw;
+    throw Error(error.kind(), error.what(), error.where(), adviceWithoutWindow(scene));
+  }
+}
+
+}  // namespace unshot
