@@ -9,8 +9,6 @@
 namespace unshot {
 namespace {
 
-constexpr ImVec2 kMiddle{0.5f, 0.5f};
-
 /// The colour of a place in the style, as strong as `alpha`.
 ImU32 styled(ImGuiCol place, float alpha = 1) { return ImGui::GetColorU32(place, alpha); }
 
@@ -238,7 +236,7 @@ void LogPlot::draw(ImDrawList& list) {
     drawMarker(list, pixelOf(*last_), styled(ImGuiCol_PlotLines));
   } else {
     PlotLabels empty({left_, top_}, {right_, bottom_}, 0);
-    empty.place("no values yet", {0.5f * (left_ + right_), 0.5f * (top_ + bottom_)}, kMiddle,
+    empty.place("no values yet", {0.5f * (left_ + right_), 0.5f * (top_ + bottom_)}, {0.5f, 0.5f},
                 styled(ImGuiCol_TextDisabled));
     empty.draw(list);
   }
