@@ -9,6 +9,10 @@
 namespace unshot {
 namespace {
 
+// Numbers from their axis, in font sizes.
+constexpr float kNumbersAway = 0.55f;
+constexpr float kNumbersBelow = 0.25f;
+
 /// The colour of a place in the style, as strong as `alpha`.
 ImU32 styled(ImGuiCol place, float alpha = 1) { return ImGui::GetColorU32(place, alpha); }
 
@@ -67,8 +71,8 @@ LogPlot::LogPlot(std::span<const PlotPoint> points, const PlotStyle& style, ImVe
       max_(max),
       x_range_(positionRange(points)),
       y_range_(valueRange(points, style.goal)),
-      labels_(min, max, 0.5f * em_),
-      inner_labels_(min, max, 0.5f * em_) {
+      labels_(min, max, 0.2f * em_),
+      inner_labels_(min, max, 0.2f * em_) {
   for (const PlotPoint& point : points) {
     if (isShown(point)) last_ = &point;
   }
@@ -92,12 +96,12 @@ void LogPlot::arrange() {
   float numbers = 0;
   for (const Tick& tick : y_ticks_) numbers = std::max(numbers, ImGui::CalcTextSize(tick.text.c_str()).x);
   if (numbers > 0.5f * (max_.x - min_.x)) numbers = 0;
-  left_ = std::floor(min_.x + numbers + 0.45f * em_);
-  right_ = std::floor(std::max(left_ + 1, max_.x - 0.65f * em_));
+  left_ = std::floor(min_.x + numbers + kNumbersAway * em_);
+  right_ = std::floor(std::max(left_ + 1, max_.x - 0.8f * em_));
   if (last_) {
-    x_ticks_ = positionTicks(x_range_, style_.x_unit, right_ - left_, 1.4 * em_, [](const std::string& text) {
-      return static_cast<double>(ImGui::CalcTextSize(text.c_str()).x);
-    });
+    x_ticks_ = positionTicks(
+        x_range_, {style_.x_unit, areWhole(points_)}, right_ - left_, 1.4 * em_,
+        [](const std::string& text) { return static_cast<double>(ImGui::CalcTextSize(text.c_str()).x); });
   }
 }
 
@@ -108,14 +112,19 @@ void LogPlot::placeLabels() {
     labels_.place(valueText(last_->y, style_.percent, 3), {max_.x, min_.y}, {1, 0},
                   styled(ImGuiCol_PlotLines));
   }
-  const float numbers_right = left_ - 0.45f * em_;
+  const float numbers_right = left_ - kNumbersAway * em_;
   for (bool major : {true, false}) {
     for (const Tick& tick : y_ticks_) {
-      if (tick.major == major) labels_.place(tick.text, {numbers_right, yOf(tick.at)}, {1, 0.5f}, faint);
+      if (tick.major != major) continue;
+      labels_.place(tick.text, {numbers_right, yOf(tick.at)}, {1, 0.5f},
+                    styled(ImGuiCol_TextDisabled, major ? 1 : 0.7f));
     }
   }
   for (const Tick& tick : x_ticks_) {
-    labels_.place(tick.text, {xOf(tick.at), bottom_ + 0.22f * em_}, {0.5f, 0}, faint);
+    // The first keeps clear of the numbers to its left.
+    const float half = 0.5f * ImGui::CalcTextSize(tick.text.c_str()).x;
+    const float x = std::max(xOf(tick.at), left_ - 0.3f * em_ + half);
+    labels_.place(tick.text, {x, bottom_ + kNumbersBelow * em_}, {0.5f, 0}, faint);
   }
   labels_.place(style_.x_label, {0.5f * (left_ + right_), max_.y}, {0.5f, 1}, faint);
 }
@@ -137,8 +146,8 @@ bool LogPlot::curveCrosses(const PlotLabels::Label& label) const {
 
 void LogPlot::placeGoalLabel() {
   if (!hasGoal()) return;
-  const std::string text = "goal " + valueText(*style_.goal, style_.percent, 2);
-  inner_labels_ = PlotLabels({left_, top_}, {right_, bottom_}, 0.5f * em_);
+  const std::string text = "goal " + shortValueText(*style_.goal, style_.percent);
+  inner_labels_ = PlotLabels({left_, top_}, {right_, bottom_}, 0);
   const float y = yOf(std::log10(*style_.goal)), away = 0.18f * em_;
   const float from_left = left_ + 0.6f * em_, from_right = right_ - 0.9f * em_;
   struct Place {
@@ -166,7 +175,7 @@ void LogPlot::drawGrid(ImDrawList& list) const {
   for (const Tick& tick : x_ticks_) {
     const float x = std::min(std::round(xOf(tick.at)), right_ - hair_);
     list.AddRectFilled({x, top_}, {x + hair_, bottom_}, styled(ImGuiCol_Text, 0.055f));
-    list.AddRectFilled({x, bottom_}, {x + hair_, bottom_ + std::round(0.22f * em_)},
+    list.AddRectFilled({x, bottom_}, {x + hair_, bottom_ + std::round(kNumbersBelow * em_)},
                        styled(ImGuiCol_Text, 0.35f));
   }
   list.AddRectFilled({left_, bottom_}, {right_, bottom_ + hair_}, styled(ImGuiCol_Text, 0.35f));
@@ -265,8 +274,8 @@ void LogPlot::hover(ImDrawList& list, ImVec2 mouse) const {
   ImGui::PushStyleColor(ImGuiCol_Text, styled(ImGuiCol_PlotLines));
   ImGui::TextUnformatted(valueText(nearest->y, style_.percent, 3).c_str());
   ImGui::PopStyleColor();
-  ImGui::TextDisabled("%s%s%s", style_.x_label, *style_.x_label ? " " : "",
-                      positionText(nearest->x, style_.x_unit).c_str());
+  const std::string unit = *style_.x_unit ? style_.x_unit : style_.x_label;
+  ImGui::TextDisabled("%s", positionText(nearest->x, unit).c_str());
   ImGui::EndTooltip();
 }
 

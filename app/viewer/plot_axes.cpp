@@ -131,6 +131,12 @@ bool isShown(const PlotPoint& point) {
   return std::isfinite(point.x) && std::isfinite(point.y) && point.y > 0;
 }
 
+bool areWhole(std::span<const PlotPoint> points) {
+  return std::all_of(points.begin(), points.end(), [](const PlotPoint& point) {
+    return !isShown(point) || point.x == std::round(point.x);
+  });
+}
+
 AxisRange valueRange(std::span<const PlotPoint> points, std::optional<double> goal) {
   AxisRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   const auto include = [&range](double y) {
@@ -179,17 +185,18 @@ std::vector<Tick> valueTicks(const AxisRange& range, bool percent, double height
   return ticks;
 }
 
-std::vector<Tick> positionTicks(const AxisRange& range, const std::string& unit, double width, double gap,
+std::vector<Tick> positionTicks(const AxisRange& range, const PositionStyle& style, double width, double gap,
                                 const TextWidth& text_width) {
   const double length = range.high - range.low;
   double step = 1;
   std::function<std::string(double)> text;
   for (int most = kMostPositions; most >= 1; --most) {
     step = roundStep(length, most);
+    if (style.whole) step = std::max(1.0, step);
     const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + kTolerance)));
     const bool plain = std::max(range.high, -range.low) < 1e7 && decimals <= 4;
-    text = [=, &unit](double x) {
-      return withUnit(plain ? grouped(x, decimals) : significant(x, 0, 2, 0), unit);
+    text = [=, &style](double x) {
+      return withUnit(x == 0 ? "0" : plain ? grouped(x, decimals) : significant(x, 0, 2, 0), style.unit);
     };
     double widest = 0;
     for (double end : {range.low, range.high}) {
@@ -206,6 +213,14 @@ std::vector<Tick> positionTicks(const AxisRange& range, const std::string& unit,
 
 std::string valueText(double value, bool percent, int digits) {
   return significant(value, percent ? 2 : 0, digits, -3) + (percent ? " %" : "");
+}
+
+std::string shortValueText(double value, bool percent) {
+  char one[64], two[64];
+  std::snprintf(one, sizeof one, "%.0e", value);
+  std::snprintf(two, sizeof two, "%.1e", value);
+  const bool same = std::strtod(one, nullptr) == std::strtod(two, nullptr);
+  return valueText(value, percent, same ? 1 : 2);
 }
 
 std::string positionText(double x, const std::string& unit) {

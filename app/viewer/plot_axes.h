@@ -37,14 +37,25 @@ AxisRange positionRange(std::span<const PlotPoint> points);
 /// there is room for, lines without a number between them. `at` is a logarithm.
 std::vector<Tick> valueTicks(const AxisRange& range, bool percent, double height, double line);
 
+struct PositionStyle {
+  std::string unit;    ///< after each number
+  bool whole = false;  ///< whole numbers only, as for counts
+};
+
 using TextWidth = std::function<double(const std::string&)>;
 
 /// Round positions of a horizontal axis `width` pixels wide, with at least `gap` pixels between their texts.
-std::vector<Tick> positionTicks(const AxisRange& range, const std::string& unit, double width, double gap,
+std::vector<Tick> positionTicks(const AxisRange& range, const PositionStyle& style, double width, double gap,
                                 const TextWidth& text_width);
+
+/// Whether every position is a whole number.
+bool areWhole(std::span<const PlotPoint> points);
 
 /// A value with `digits` significant digits: "12.3 %", "10⁻⁷ %"; without percent "0.123".
 std::string valueText(double value, bool percent, int digits);
+
+/// The same with two digits, or one where the second is 0.
+std::string shortValueText(double value, bool percent);
 
 /// A position as the mouse shows it: a whole number as it is, others with three significant digits.
 std::string positionText(double x, const std::string& unit);

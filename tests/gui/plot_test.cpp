@@ -59,6 +59,8 @@ TEST(ValueTexts, AreShortAndExact) {
   EXPECT_EQ(valueText(1e300, true, 1), "10³⁰² %");
   EXPECT_EQ(valueText(0.125, false, 3), "0.125");
   EXPECT_EQ(valueText(12345, false, 5), "12,345");
+  EXPECT_EQ(shortValueText(0.001, true), "0.1 %");
+  EXPECT_EQ(shortValueText(0.0015, true), "0.15 %");
   EXPECT_EQ(positionText(1500, ""), "1,500");
   EXPECT_EQ(positionText(-1234567, ""), "−1,234,567");
   EXPECT_EQ(positionText(0.5, "s"), "0.500 s");
@@ -106,12 +108,12 @@ TEST(ValueAxis, NumbersThinOut) {
 TEST(PositionAxis, RoundNumbersWithRoom) {
   const auto width = [](const std::string& text) { return 8.0 * static_cast<double>(text.size()); };
   using Texts = std::vector<std::string>;
-  EXPECT_EQ(textsOf(positionTicks({0, 3000}, "", 300, 20, width)), (Texts{"0", "1,000", "2,000", "3,000"}));
-  EXPECT_EQ(textsOf(positionTicks({0, 1.6}, "s", 300, 20, width)),
-            (Texts{"0.0 s", "0.5 s", "1.0 s", "1.5 s"}));
-  EXPECT_EQ(textsOf(positionTicks({0, 3}, "", 300, 20, width)), (Texts{"0", "1", "2", "3"}));
-  EXPECT_EQ(textsOf(positionTicks({0, 1e9}, "", 600, 20, width)).back(), "10⁹");
-  EXPECT_LE(textsOf(positionTicks({-4e307, 4e307}, "s", 300, 20, width)).size(), 9u);
+  EXPECT_EQ(textsOf(positionTicks({0, 3000}, {}, 300, 20, width)), (Texts{"0", "1,000", "2,000", "3,000"}));
+  EXPECT_EQ(textsOf(positionTicks({0, 1.6}, {"s"}, 300, 20, width)),
+            (Texts{"0 s", "0.5 s", "1.0 s", "1.5 s"}));
+  EXPECT_EQ(textsOf(positionTicks({0, 3}, {"", true}, 300, 20, width)), (Texts{"0", "1", "2", "3"}));
+  EXPECT_EQ(textsOf(positionTicks({0, 1e9}, {}, 600, 20, width)).back(), "10⁹");
+  EXPECT_LE(textsOf(positionTicks({-4e307, 4e307}, {"s"}, 300, 20, width)).size(), 9u);
   EXPECT_EQ(positionRange(Points{}).high, 1);
   EXPECT_EQ(positionRange(Points{{5, 1}, {kInfinity, 1}, {9, 0}}).high, 5);
 }
