@@ -15,7 +15,8 @@ struct PlotPoint {
 };
 
 struct PlotStyle {
-  const char* x_label = "";    ///< under the axis, with its unit
+  const char* x_label = "";    ///< under the axis
+  const char* x_unit = "";     ///< after the numbers on the axis: "s" gives 0.5 s
   const char* y_label = "";    ///< over the axis
   std::optional<double> goal;  ///< a dashed line
   bool percent = true;         ///< y as 100 %, 10 %, ...
@@ -23,11 +24,14 @@ struct PlotStyle {
 };
 
 /// Draws the curve at ImGui's cursor, as wide as the room there is, with decades, ticks at round numbers and,
-/// under the mouse, the values of the nearest point. Copes with no point, with one, and with ranges of any
-/// size.
+/// under the mouse, the values of the nearest point. Over it stands the last value. The points are in the
+/// order of their x; thousands are drawn as about two per column of pixels. Copes with no point, with one,
+/// and with ranges of any size. Colours: ImGuiCol_PlotLines for the curve, Text and TextDisabled. The font
+/// needs raised digits (theme.h).
 void logPlot(const char* id, std::span<const PlotPoint> points, const PlotStyle& style);
 
-/// Round steps (1, 2 or 5 times a power of ten) that cut [0, high] into at most `most` parts.
+/// Round steps (1, 2 or 5 times a power of ten) that cut [0, high] into at most `most` parts; 1 where `high`
+/// is not positive and finite.
 double roundStep(double high, int most);
 
 }  // namespace unshot
