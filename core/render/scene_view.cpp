@@ -37,6 +37,14 @@ std::vector<glm::vec3> finiteValues(const std::vector<glm::vec3>& field, std::si
   return values;
 }
 
+// The same for a texture of elements.
+std::vector<glm::vec4> finiteTexels(const std::vector<glm::vec3>& field, std::size_t count) {
+  std::vector<glm::vec4> values(std::max<std::size_t>(count, 1), glm::vec4(0.0f));
+  for (std::size_t i = 0; i < std::min(count, field.size()); ++i)
+    values[i] = glm::vec4(finiteValue(glm::dvec3(field[i])), 0.0f);
+  return values;
+}
+
 template <class T>
 void upload(const gl::Functions& fn, const gl::Buffer& buffer, const std::vector<T>& values, GLenum usage) {
   // The binding point says nothing about the use; this one disturbs no vertex array.
@@ -96,6 +104,7 @@ SceneView::SceneView(gl::Context& context)
       no_attributes_(context),
       vertices_(context),
       irradiance_(context),
+      direct_(context),
       ambient_(context),
       unshot_(context),
       triangles_(context),
@@ -103,13 +112,16 @@ SceneView::SceneView(gl::Context& context)
       sides_(context),
       triangle_elements_(context),
       element_irradiance_(context),
+      element_direct_(context),
       sides_texture_(context),
       triangle_elements_texture_(context),
-      element_irradiance_texture_(context) {}
+      element_irradiance_texture_(context),
+      element_direct_texture_(context) {}
 
 void SceneView::setSnapshot(const Snapshot& snapshot) {
   const gl::Functions& fn = context_.functions();
-  if (snapshot.mesh != mesh_) {
+  const bool fresh = snapshot.mesh != mesh_;
+  if (fresh) {
     uploadMesh(*snapshot.mesh);
     mesh_ = snapshot.mesh;
     bounds_ = {mesh_->bounds_min, mesh_->bounds_max};
@@ -118,11 +130,19 @@ void SceneView::setSnapshot(const Snapshot& snapshot) {
   update(fn, irradiance_, finiteValues(snapshot.irradiance, count));
   update(fn, ambient_, finiteValues(snapshot.ambient, count));
   update(fn, unshot_, finiteValues(snapshot.unshot, count));
-  std::vector<glm::vec4> per_element(std::max<std::size_t>(mesh_->element_count, 1), glm::vec4(0.0f));
-  for (std::size_t i = 0; i < std::min(per_element.size(), snapshot.element_irradiance.size()); ++i) {
-    per_element[i] = glm::vec4(finiteValue(glm::dvec3(snapshot.element_irradiance[i])), 0.0f);
-  }
-  update(fn, element_irradiance_, per_element);
+  update(fn, element_irradiance_, finiteTexels(snapshot.element_irradiance, mesh_->element_count));
+  if (fresh || snapshot.direct != direct_field_ || snapshot.element_direct != element_direct_field_)
+    uploadDirect(snapshot);
+}
+
+void SceneView::uploadDirect(const Snapshot& snapshot) {
+  static const std::vector<glm::vec3> kNothing;
+  const gl::Functions& fn = context_.functions();
+  update(fn, direct_, finiteValues(snapshot.direct ? *snapshot.direct : kNothing, mesh_->vertices.size()));
+  update(fn, element_direct_,
+         finiteTexels(snapshot.element_direct ? *snapshot.element_direct : kNothing, mesh_->element_count));
+  direct_field_ = snapshot.direct;
+  element_direct_field_ = snapshot.element_direct;
 }
 
 void SceneView::uploadMesh(const Mesh& mesh) {
@@ -134,7 +154,7 @@ void SceneView::uploadMesh(const Mesh& mesh) {
   vertices.reserve(mesh.vertices.size());
   for (const Vertex& v : mesh.vertices) vertices.push_back({v.position, v.normal, v.side});
   upload(fn, vertices_, vertices, GL_STATIC_DRAW);
-  for (const gl::Buffer* field : {&irradiance_, &ambient_, &unshot_}) {
+  for (const gl::Buffer* field : {&irradiance_, &direct_, &ambient_, &unshot_}) {
     allocate(fn, *field, mesh.vertices.size() * sizeof(glm::vec3));
   }
   upload(fn, triangles_, mesh.triangle_vertices, GL_STATIC_DRAW);
@@ -147,7 +167,6 @@ void SceneView::uploadMesh(const Mesh& mesh) {
   fn.EnableVertexAttribArray(2);
   fn.VertexAttribIPointer(2, 1, GL_UNSIGNED_INT, sizeof(GpuVertex),
                           reinterpret_cast<const void*>(offsetof(GpuVertex, side)));
-  attribute(fn, 3, irradiance_, sizeof(glm::vec3), 0);
   attribute(fn, 4, ambient_, sizeof(glm::vec3), 0);
   attribute(fn, 5, unshot_, sizeof(glm::vec3), 0);
   fn.BindBuffer(GL_ARRAY_BUFFER, 0);
@@ -160,7 +179,9 @@ void SceneView::uploadMesh(const Mesh& mesh) {
   }
   upload(fn, sides_, sides, GL_STATIC_DRAW);
   upload(fn, triangle_elements_, mesh.triangle_element, GL_STATIC_DRAW);
-  allocate(fn, element_irradiance_, std::max<std::size_t>(mesh.element_count, 1) * sizeof(glm::vec4));
+  for (const gl::Buffer* field : {&element_irradiance_, &element_direct_}) {
+    allocate(fn, *field, std::max<std::size_t>(mesh.element_count, 1) * sizeof(glm::vec4));
+  }
   const auto attach = [&](const gl::Texture& texture, GLenum format, const gl::Buffer& buffer) {
     fn.BindTexture(GL_TEXTURE_BUFFER, texture.id());
     fn.TexBuffer(GL_TEXTURE_BUFFER, format, buffer.id());
@@ -169,6 +190,7 @@ void SceneView::uploadMesh(const Mesh& mesh) {
   attach(sides_texture_, GL_RGBA32F, sides_);
   attach(triangle_elements_texture_, GL_R32UI, triangle_elements_);
   attach(element_irradiance_texture_, GL_RGBA32F, element_irradiance_);
+  attach(element_direct_texture_, GL_RGBA32F, element_direct_);
 }
 
 void SceneView::uploadEdges() {
@@ -204,14 +226,18 @@ void SceneView::drawLinear(const Camera& camera, double aspect, const FrameWindo
   const glm::vec3 eye(camera.eye);
   fn.UniformMatrix4fv(program.uniform("view_projection"), 1, GL_FALSE, glm::value_ptr(matrix));
   fn.Uniform3fv(program.uniform("eye"), 1, glm::value_ptr(eye));
-  fn.Uniform1f(program.uniform("ambient_weight"), options.ambient ? 1.0f : 0.0f);
+  fn.Uniform1f(program.uniform("ambient_weight"), options.ambient && options.indirect ? 1.0f : 0.0f);
   fn.Uniform1i(program.uniform("quantity"), static_cast<int>(mode.quantity));
   fn.Uniform1i(program.uniform("per_element"), mode.per_element);
   fn.Uniform1i(program.uniform("edges"), 0);
   bindTexture(fn, program, "sides", 0, GL_TEXTURE_BUFFER, sides_texture_.id());
   bindTexture(fn, program, "triangle_elements", 1, GL_TEXTURE_BUFFER, triangle_elements_texture_.id());
-  bindTexture(fn, program, "element_irradiance", 2, GL_TEXTURE_BUFFER, element_irradiance_texture_.id());
+  bindTexture(fn, program, "element_irradiance", 2, GL_TEXTURE_BUFFER,
+              (options.indirect ? element_irradiance_texture_ : element_direct_texture_).id());
   fn.BindVertexArray(vertex_array_.id());
+  // The light that is shown, all or direct, is a matter of which buffer is read.
+  attribute(fn, 3, options.indirect ? irradiance_ : direct_, sizeof(glm::vec3), 0);
+  fn.BindBuffer(GL_ARRAY_BUFFER, 0);
   fn.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, triangles_.id());
   fn.DrawElements(GL_TRIANGLES, triangle_index_count_, GL_UNSIGNED_INT, nullptr);
   if (mode.edges && with_edges) {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "gl/objects.h"
 #include "render/camera.h"
@@ -25,6 +26,9 @@ struct ViewOptions {
   int supersampling = 1;              ///< samples along a pixel's side
   /// Keeps this automatic exposure (what `draw` returned) instead of finding it again.
   std::optional<double> automatic_exposure;
+  /// All light. Without it only what comes straight from emitters, B = E + rho H_d: the picture without
+  /// radiosity, and without the ambient term.
+  bool indirect = true;
 };
 
 /// A rectangle of the bound framebuffer [px], from its lower left.
@@ -38,7 +42,8 @@ class SceneView {
  public:
   explicit SceneView(gl::Context& context);
 
-  /// Uploads the state; geometry only when the mesh is another than before. Values that are not finite are
+  /// Uploads the state; geometry only when the mesh is another than before, direct light only when its field
+  /// is another object than before. Values that are not finite are
   /// drawn as 0. Throws Error kEnvironment where the mesh is too large for the driver.
   void setSnapshot(const Snapshot& snapshot);
 
@@ -68,19 +73,22 @@ class SceneView {
 
  private:
   void uploadMesh(const Mesh& mesh);
+  void uploadDirect(const Snapshot& snapshot);
   void uploadEdges();
   double meterSamples();
   const LinearTarget& target(LinearTarget& kept, int width, int height);
 
   gl::Context& context_;
   std::shared_ptr<const Mesh> mesh_;
+  std::shared_ptr<const std::vector<glm::vec3>> direct_field_, element_direct_field_;  // as uploaded
   Bounds bounds_;
   gl::Program display_program_, resolve_program_;
   gl::VertexArray vertex_array_, no_attributes_;
-  gl::Buffer vertices_, irradiance_, ambient_, unshot_;
+  gl::Buffer vertices_, irradiance_, direct_, ambient_, unshot_;
   gl::Buffer triangles_, edges_;
-  gl::Buffer sides_, triangle_elements_, element_irradiance_;
-  gl::Texture sides_texture_, triangle_elements_texture_, element_irradiance_texture_;
+  gl::Buffer sides_, triangle_elements_, element_irradiance_, element_direct_;
+  gl::Texture sides_texture_, triangle_elements_texture_, element_irradiance_texture_,
+      element_direct_texture_;
   LinearTarget samples_, small_;
   GLsizei triangle_index_count_ = 0;
   GLsizei edge_index_count_ = 0;

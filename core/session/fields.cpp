@@ -41,18 +41,20 @@ std::vector<glm::vec3> meanOverElements(const Mesh& mesh, const std::vector<glm:
 
 }  // namespace
 
+MeshField makeField(const Mesh& mesh, const Receivers& receivers, const std::vector<glm::dvec3>& values) {
+  if (receivers.kind == ReceiverKind::kElements)
+    return {atVertices(mesh, [&](std::uint32_t e) { return values[e]; }), {values.begin(), values.end()}};
+  return {{values.begin(), values.end()}, meanOverElements(mesh, values)};
+}
+
 Snapshot makeFields(std::shared_ptr<const Mesh> mesh_in, const Transport& transport,
                     const RadiosityState& state, const AmbientTerm& ambient) {
   Snapshot out;
   out.mesh = std::move(mesh_in);
   const Mesh& mesh = *out.mesh;
-  if (transport.receivers().kind == ReceiverKind::kElements) {
-    for (const glm::dvec3& h : state.irradiance()) out.element_irradiance.emplace_back(h);
-    out.irradiance = atVertices(mesh, [&](std::uint32_t e) { return state.irradiance()[e]; });
-  } else {
-    for (const glm::dvec3& h : state.irradiance()) out.irradiance.emplace_back(h);
-    out.element_irradiance = meanOverElements(mesh, state.irradiance());
-  }
+  MeshField received = makeField(mesh, transport.receivers(), state.irradiance());
+  out.irradiance = std::move(received.vertices);
+  out.element_irradiance = std::move(received.elements);
   const std::vector<glm::dvec3> estimate = ambient.values(state);
   out.ambient = atVertices(mesh, [&](std::uint32_t e) { return estimate[mesh.element_patch[e]]; });
   out.unshot = atVertices(mesh, [&](std::uint32_t e) { return state.unshot()[mesh.element_patch[e]]; });

@@ -1,5 +1,5 @@
-// The fields of a snapshot from the state of a solve: irradiance at vertices, the ambient estimate, unshot
-// radiosity.
+// The fields of a snapshot from the state of a solve: irradiance and its direct part, the ambient estimate,
+// unshot radiosity.
 #pragma once
 
 #include "formfactor/transport.h"
@@ -9,7 +9,17 @@
 
 namespace unshot {
 
-/// All of the snapshot but its measures.
+/// A field on a mesh [W/m^2].
+struct MeshField {
+  std::vector<glm::vec3> vertices;  ///< one per vertex
+  std::vector<glm::vec3> elements;  ///< one per element
+};
+
+/// A field on receivers (one value each) at the vertices and on the elements: where one of the two is not
+/// what the receivers are, interpolated or averaged.
+MeshField makeField(const Mesh& mesh, const Receivers& receivers, const std::vector<glm::dvec3>& values);
+
+/// All of the snapshot but its measures and direct light.
 Snapshot makeFields(std::shared_ptr<const Mesh> mesh, const Transport& transport, const RadiosityState& state,
                     const AmbientTerm& ambient);
 

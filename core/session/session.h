@@ -22,10 +22,10 @@ enum class SessionPhase {
   kPaused,     ///< waits for resume or step
   kConverged,  ///< the error asked for is reached
   kStopped,    ///< a limit of the options is reached (max_shots, max_seconds)
-  kFailed,     ///< numerical trouble (Solve::stoppedBy); the last state stays
+  kFailed,     ///< numerical trouble, or a step threw; the last good snapshot stays
 };
 
-/// What stays the same during one solve; made anew by a mode switch.
+/// What stays the same during one solve; made anew when its mode or error is set.
 struct SolveFacts {
   std::filesystem::path scene_path;
   std::string scene_name;
@@ -47,12 +47,12 @@ struct SessionState {
   std::string task;                         ///< while loading: what is being done, such as "reading room.obj"
   std::shared_ptr<const SolveFacts> facts;  ///< null before the first scene
   std::shared_ptr<const Snapshot> snapshot;  ///< the last good one; null before the first scene
-  std::shared_ptr<const std::vector<HistoryEntry>> history;  ///< of this solve, up to the snapshot
-  Measures measures;                                         ///< as of this moment
-  double progress = 0;                                       ///< Solve::progress
-  std::size_t kept_bytes = 0;                                ///< memory held by kept columns
-  std::uint64_t drawn = 0;                                   ///< hemicubes drawn
-  std::string stopped_by;                                    ///< Solve::stoppedBy
+  std::shared_ptr<const std::vector<HistoryEntry>> history;  ///< of this solve, up to this moment
+  Measures measures;    ///< as of this moment; while running the snapshot may be older (Snapshot::measures)
+  double progress = 0;  ///< Solve::progress
+  std::size_t kept_bytes = 0;    ///< memory held by kept columns
+  std::uint64_t drawn = 0;       ///< hemicubes drawn
+  std::string stopped_by;        ///< Solve::stoppedBy, or what a step threw
   std::uint64_t problems = 0;    ///< how many commands or solves have failed so far
   std::optional<Error> problem;  ///< the last failure
 };
@@ -61,7 +61,8 @@ struct SessionSetup {
   /// For the solver thread alone: made and destroyed by the caller, current nowhere, outlives the session.
   /// Null: methods that draw fail with an Error.
   gl::Context* gl = nullptr;
-  /// Called on the solver thread after each publication.
+  /// Called on the solver thread after each publication; must not throw. It may call all of the session but
+  /// its destructor.
   std::function<void()> wake;
 };
 
@@ -75,20 +76,23 @@ class Session {
   Session& operator=(const Session&) = delete;
 
   // Commands, carried out in order between two steps. What fails leaves the session as it was and is
-  // published as `problem`.
+  // published as `problem`. A command that has nothing to do in the present phase (pause without a scene,
+  // step of a converged solve) does nothing.
 
   /// Reads a scene and solves it. The scene before goes on being shown, and is gone only when this one is
-  /// ready.
+  /// ready. The new solve runs from the first moment; a pause sent after this command finds it before its
+  /// first shot.
   void open(std::filesystem::path scene, SolveOptions options);
-  /// The present scene again from the start, with these options.
+  /// The present scene as it was read, from the start, with these options; open() reads the file again.
   void restart(SolveOptions options);
   void pause();
   void resume();
-  /// `shots` more steps, then a pause.
+  /// `shots` more steps, added to those still due, then a pause; 0 where none are due: a pause.
   void step(std::uint64_t shots);
   /// Another iteration mode; what was shot and received stays.
   void setMode(std::string key);
-  /// Another error to aim for (SolveOptions::error); goes on where it is not reached.
+  /// Another error to aim for (SolveOptions::error): a converged solve that has not reached it runs again,
+  /// one that has converges at once.
   void setError(double error);
 
   /// How many commands were sent so far; they are carried out when latest()->commands says the same.
@@ -96,7 +100,9 @@ class Session {
   /// Never null.
   std::shared_ptr<const SessionState> latest() const;
 
-  /// Least time between two publications while running [s]; at least (and by default) 1/30.
+  /// Least time between two publications while running [s]; at least (and by default) 1/30, and at least ten
+  /// times what the last snapshot cost to make. Commands and changes of phase are published at once; while
+  /// running they bring a new snapshot only where one is due.
   void setPublishInterval(double seconds);
 
  private:

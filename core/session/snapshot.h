@@ -12,21 +12,27 @@ namespace unshot {
 
 /// Figures of a solve at one moment.
 struct Measures {
-  double seconds = 0;          ///< wall time since the solve began
-  double cpu_seconds = 0;      ///< CPU time since meshing began
+  double seconds = 0;          ///< wall time since the solve began, without its rests (Solve::rest)
+  double cpu_seconds = 0;      ///< CPU time since meshing began, without rests
   std::uint64_t shots = 0;     ///< columns used
   std::uint64_t rows = 0;      ///< columns and rows computed (not taken from those kept)
   double unshot_fraction = 1;  ///< sum A |U| / sum A E over patches and channels
 };
 
 /// One state of a solve. Fields are per display vertex of `mesh`; radiosity is B = E + rho (irradiance +
-/// ambient), with rho and E of the vertex's material and side (mesh->sides[vertex.side]).
+/// ambient), with rho and E of the vertex's material and side (mesh->sides[vertex.side]). Indirect light is
+/// irradiance - direct.
 struct Snapshot {
   std::shared_ptr<const Mesh> mesh;
   std::vector<glm::vec3> irradiance;          ///< H [W/m^2], one per vertex
   std::vector<glm::vec3> ambient;             ///< estimate of what unshot light will add to H; one per vertex
   std::vector<glm::vec3> unshot;              ///< U [W/m^2] of the vertex's patch, one per vertex
   std::vector<glm::vec3> element_irradiance;  ///< H [W/m^2], one per element
+  /// H_d [W/m^2], one per vertex: the part of `irradiance` that came straight from emitters, complete once
+  /// every emitter has shot; null counts as 0. Snapshots share it as long as it does not change.
+  std::shared_ptr<const std::vector<glm::vec3>> direct;
+  /// H_d [W/m^2], one per element; null counts as 0.
+  std::shared_ptr<const std::vector<glm::vec3>> element_direct;
   Measures measures;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/clock.h"
 #include "formfactor/methods.h"
@@ -19,6 +20,11 @@ namespace {
 // arrive.
 constexpr std::uint64_t kStagnationPasses = 20;
 constexpr double kStagnationShare = 1e-4;
+
+void checkError(double error) {
+  if (error > 0 && error < 1) return;
+  throw Error(ErrorKind::kUsage, "the error asked for must lie between 0 and 1", {}, "--error 0.01");
+}
 
 std::vector<glm::dvec3> perPatch(const Mesh& mesh, glm::dvec3 Side::*member) {
   std::vector<glm::dvec3> out;
@@ -47,6 +53,9 @@ struct Solve::Impl {
   std::string stopped_by;
   Measures measures;
   std::vector<HistoryEntry> history;
+  std::optional<std::pair<double, double>> rest_began;                   // wall and CPU time
+  std::shared_ptr<const std::vector<glm::vec3>> direct, element_direct;  // for emission_shots of the state
+  std::uint64_t emission_shots = 0;
   double watched_fraction = 1;
   std::uint64_t watched_shots = 0;
 
@@ -55,16 +64,17 @@ struct Solve::Impl {
 
   void prepare(const std::function<gl::Context&()>& gl);
   void makeTransport(const std::function<gl::Context&()>& gl);
+  void chooseMode(const std::string& key);
   void stop(SolveState how, std::string why);
+  void wakeClocks();
   void measure();
   void checkLimits();
   void checkStagnation();
+  void record();
 };
 
 void Solve::Impl::prepare(const std::function<gl::Context&()>& gl) {
-  if (!(options.error > 0 && options.error < 1)) {
-    throw Error(ErrorKind::kUsage, "the error asked for must lie between 0 and 1", {}, "--error 0.01");
-  }
+  checkError(options.error);
   const double start = wallSeconds();
   cpu_start = cpuSeconds();
   mesh = std::make_shared<Mesh>(
@@ -72,7 +82,6 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl) {
   seconds.mesh = wallSeconds() - start;
 
   const double plan_start = wallSeconds();
-  mode_key = options.mode == "auto" ? "southwell" : options.mode;
   form_factors_key = options.form_factors;
   if (form_factors_key == "auto") form_factors_key = nothingCanOcclude(*mesh) ? "closed-form" : "hemicube";
   plan = makePlan(scene, *mesh, form_factors_key);
@@ -80,7 +89,7 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl) {
   diagnostics.insert(diagnostics.end(), mesh->diagnostics.begin(), mesh->diagnostics.end());
   seconds.plan = wallSeconds() - plan_start;
 
-  mode = findChoice(iterationModes(), mode_key, "iteration mode").make();
+  chooseMode(options.mode);
   const double cpu_before_setup = cpuSeconds();
   makeTransport(gl);
   cpu_setup = cpuSeconds() - cpu_before_setup;
@@ -118,9 +127,23 @@ void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl) {
                                           options.kept_bytes);
 }
 
+void Solve::Impl::chooseMode(const std::string& key) {
+  const std::string chosen = key == "auto" ? "southwell" : key;
+  mode = findChoice(iterationModes(), chosen, "iteration mode").make();
+  mode_key = chosen;
+  options.mode = key;
+}
+
 void Solve::Impl::stop(SolveState how, std::string why) {
   progress_state = how;
   stopped_by = std::move(why);
+}
+
+void Solve::Impl::wakeClocks() {
+  if (!rest_began) return;
+  solve_start += wallSeconds() - rest_began->first;
+  cpu_start += cpuSeconds() - rest_began->second;
+  rest_began.reset();
 }
 
 void Solve::Impl::measure() {
@@ -153,6 +176,13 @@ void Solve::Impl::checkStagnation() {
   watched_shots = measures.shots;
 }
 
+// A curve needs no more points than a plot has pixels: each is a hundredth further than the last.
+void Solve::Impl::record() {
+  const std::uint64_t last = history.back().measures.shots;
+  const bool ended = progress_state != SolveState::kRunning && measures.shots > last;
+  if (ended || measures.shots >= last + std::max<std::uint64_t>(1, last / 100)) history.push_back({measures});
+}
+
 Solve::Solve(Scene scene, SolveOptions options, std::function<gl::Context&()> gl)
     : impl_(std::make_unique<Impl>(std::move(scene), std::move(options))) {
   impl_->prepare(gl);
@@ -163,21 +193,47 @@ Solve::~Solve() = default;
 void Solve::step() {
   Impl& s = *impl_;
   if (s.progress_state != SolveState::kRunning) return;
+  s.wakeClocks();
+  bool nothing_left = false;
   if (const auto shooter = s.mode->step(*s.state, *s.transport)) {
     ++s.measures.shots;
     s.ambient->sees(*shooter, *s.transport);
   } else {
-    s.stop(SolveState::kConverged, "error");
+    nothing_left = true;
   }
   s.measure();
-  if (s.progress_state == SolveState::kRunning) s.checkLimits();
+  s.checkLimits();
+  if (s.progress_state == SolveState::kRunning && nothing_left) s.stop(SolveState::kConverged, "error");
   if (s.progress_state == SolveState::kRunning) s.checkStagnation();
-  // A curve needs no more points than a plot has pixels: each is a hundredth further than the last.
-  const std::uint64_t last = s.history.back().measures.shots;
-  if (s.progress_state != SolveState::kRunning ||
-      s.measures.shots >= last + std::max<std::uint64_t>(1, last / 100)) {
-    s.history.push_back({s.measures});
+  s.record();
+}
+
+void Solve::setMode(const std::string& key) {
+  Impl& s = *impl_;
+  s.chooseMode(key);
+  s.watched_fraction = s.measures.unshot_fraction;
+  s.watched_shots = s.measures.shots;
+}
+
+void Solve::setError(double error) {
+  checkError(error);
+  Impl& s = *impl_;
+  s.options.error = error;
+  if (s.stopped_by == "no light") return;
+  if (s.progress_state == SolveState::kConverged) {
+    s.stop(SolveState::kRunning, {});
+    s.watched_fraction = s.measures.unshot_fraction;
+    s.watched_shots = s.measures.shots;
+  } else if (s.progress_state == SolveState::kLimit && s.measures.unshot_fraction <= error) {
+    s.stop(SolveState::kRunning, {});
   }
+  if (s.progress_state != SolveState::kRunning) return;
+  s.checkLimits();
+  s.record();
+}
+
+void Solve::rest() {
+  if (!impl_->rest_began) impl_->rest_began = {wallSeconds(), cpuSeconds()};
 }
 
 SolveState Solve::state() const { return impl_->progress_state; }
@@ -190,6 +246,14 @@ Snapshot Solve::snapshot() const {
   const Impl& s = *impl_;
   Snapshot out = makeFields(s.mesh, *s.transport, *s.state, *s.ambient);
   out.measures = s.measures;
+  if (!impl_->direct || s.emission_shots != s.state->emissionShots()) {
+    MeshField direct = makeField(*s.mesh, s.transport->receivers(), s.state->direct());
+    impl_->direct = std::make_shared<const std::vector<glm::vec3>>(std::move(direct.vertices));
+    impl_->element_direct = std::make_shared<const std::vector<glm::vec3>>(std::move(direct.elements));
+    impl_->emission_shots = s.state->emissionShots();
+  }
+  out.direct = s.direct;
+  out.element_direct = s.element_direct;
   return out;
 }
 
@@ -198,6 +262,7 @@ const Measures& Solve::measures() const { return impl_->measures; }
 double Solve::progress() const {
   const Impl& s = *impl_;
   if (s.progress_state == SolveState::kConverged) return 1;
+  if (!std::isfinite(s.measures.unshot_fraction)) return 0;
   const double reached = std::log(std::max(s.measures.unshot_fraction, 1e-300)) / std::log(s.options.error);
   return std::clamp(reached, 0.0, 1.0);
 }
@@ -221,6 +286,7 @@ EnergyBalance Solve::energy() const {
   return out;
 }
 
+const SolveOptions& Solve::options() const { return impl_->options; }
 const Scene& Solve::scene() const { return impl_->scene; }
 const Mesh& Solve::mesh() const { return *impl_->mesh; }
 const std::string& Solve::modeKey() const { return impl_->mode_key; }

@@ -75,6 +75,15 @@ class Solve {
   /// kRunning. A step takes milliseconds to a few tens of them, so that limits and interruption act soon.
   void step();
 
+  /// Another iteration mode, which goes on from what was shot and received; columns at hand stay. It does not
+  /// revive a solve that has ended. Throws a usage Error for an unknown key.
+  void setMode(const std::string& key);
+  /// Another SolveOptions::error: a running solve (or one at a limit) that has reached it converges at once,
+  /// a converged one that has not runs again. Throws a usage Error unless 0 < error < 1.
+  void setError(double error);
+  /// Stops the clocks of `measures` until the next step.
+  void rest();
+
   SolveState state() const;
   /// Ends the solve as interrupted; what was reached stays.
   void interrupt();
@@ -86,6 +95,7 @@ class Solve {
   double progress() const;
 
   // For reports.
+  const SolveOptions& options() const;  ///< as asked for; `mode` and `error` as set last
   const Scene& scene() const;
   const Mesh& mesh() const;
   const std::string& modeKey() const;         ///< what `auto` became

@@ -1,6 +1,7 @@
 #include "solver/state.h"
 
 #include <cmath>
+#include <glm/common.hpp>
 
 namespace unshot {
 namespace {
@@ -17,8 +18,16 @@ RadiosityState::RadiosityState(const Transport& transport, std::vector<glm::dvec
       shot_(emission_.size(), glm::dvec3(0.0)),
       unshot_(emission_),
       irradiance_(transport.receiverCount(), glm::dvec3(0.0)),
+      direct_(transport.receiverCount(), glm::dvec3(0.0)),
+      emission_left_(emission_),
       area_(transport.patchArea()) {
   for (std::size_t q = 0; q < emission_.size(); ++q) emitted_power_ += area_[q] * sumOfChannels(emission_[q]);
+}
+
+glm::dvec3 RadiosityState::takeEmission(std::uint32_t q, const glm::dvec3& d) {
+  const glm::dvec3 taken = glm::clamp(d, glm::dvec3(0.0), emission_left_[q]);
+  emission_left_[q] -= taken;
+  return taken;
 }
 
 void RadiosityState::shoot(std::uint32_t q, const glm::dvec3& d, const Column& column) {
@@ -33,6 +42,11 @@ void RadiosityState::shoot(std::uint32_t q, const glm::dvec3& d, const Column& c
       unshot_[share.patch] += share.area / area_[share.patch] * reflectance_[share.patch] * received;
     }
   });
+  const glm::dvec3 emitted = takeEmission(q, d);
+  if (emitted != glm::dvec3(0.0)) {
+    ++emission_shots_;
+    column.forEach([&](std::uint32_t v, double k) { direct_[v] += k * emitted; });
+  }
   escaped_power_ += column.escape * area_[q] * sumOfChannels(d);
   defect_power_ += column.defect * area_[q] * sumOfChannels(d);
 }

@@ -3,8 +3,12 @@
 // S_q is the radiosity that patch q has shot so far, H = K S the irradiance received, B = E + rho H, and U =
 // R B - S what is unshot, R the area mean over a patch. U is the residual of S = R (E + rho K S), so U = 0 is
 // the solution; every mode only chooses what to shoot next.
+//
+// H_d = K E is the part of H that came straight from emitters. Of what a patch shoots, its emission goes
+// first: once it has shot E in all, its light is in H_d, and what it shoots from then on was reflected.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
@@ -22,7 +26,8 @@ class RadiosityState {
 
   std::size_t patchCount() const { return shot_.size(); }
 
-  /// S_q += d, H += K d. `column` is column q of the transport the state was made with.
+  /// S_q += d, H += K d; H_d += K of the emission in d: per channel, as much of d as is emission not yet shot
+  /// (a negative d holds none). `column` is column q of the transport the state was made with.
   void shoot(std::uint32_t q, const glm::dvec3& d, const Column& column);
 
   const std::vector<glm::dvec3>& emission() const { return emission_; }        ///< E, one per patch [W/m^2]
@@ -30,7 +35,11 @@ class RadiosityState {
   const std::vector<glm::dvec3>& shot() const { return shot_; }                ///< S, one per patch [W/m^2]
   const std::vector<glm::dvec3>& unshot() const { return unshot_; }            ///< U, one per patch [W/m^2]
   const std::vector<glm::dvec3>& irradiance() const { return irradiance_; }  ///< H, one per receiver [W/m^2]
-  const std::vector<double>& area() const { return area_; }                  ///< one per patch [m^2]
+  /// H_d: irradiance straight from emitters, one per receiver [W/m^2]; all of it once every emitter has shot.
+  const std::vector<glm::dvec3>& direct() const { return direct_; }
+  /// How many shots carried emission: direct() is as before where this is.
+  std::uint64_t emissionShots() const { return emission_shots_; }
+  const std::vector<double>& area() const { return area_; }  ///< one per patch [m^2]
 
   double emittedPower() const { return emitted_power_; }  ///< sum A E over patches and channels [W]
   double unshotPower() const;                             ///< sum A |U| over patches and channels [W]
@@ -40,10 +49,14 @@ class RadiosityState {
   }  ///< shot and lost by approximation so far, over channels [W]
 
  private:
+  glm::dvec3 takeEmission(std::uint32_t q, const glm::dvec3& d);
+
   const Transport& transport_;
-  std::vector<glm::dvec3> emission_, reflectance_, shot_, unshot_, irradiance_;
+  std::vector<glm::dvec3> emission_, reflectance_, shot_, unshot_, irradiance_, direct_;
+  std::vector<glm::dvec3> emission_left_;  // E not yet shot, one per patch
   std::vector<double> area_;
   double emitted_power_ = 0, escaped_power_ = 0, defect_power_ = 0;
+  std::uint64_t emission_shots_ = 0;
 };
 
 }  // namespace unshot

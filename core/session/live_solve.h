@@ -1,0 +1,107 @@
+// What the solver thread of a Session does, without the thread: carries out commands, takes steps, and hands
+// out a state where one is due.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "session/publish_pace.h"
+#include "session/session.h"
+
+namespace unshot {
+
+/// The commands of a Session, which documents them.
+namespace command {
+struct Open {
+  std::filesystem::path scene;
+  SolveOptions options;
+};
+struct Restart {
+  SolveOptions options;
+};
+struct Pause {};
+struct Resume {};
+struct Step {
+  std::uint64_t shots;
+};
+struct SetMode {
+  std::string key;
+};
+struct SetError {
+  double error;
+};
+}  // namespace command
+
+using Command = std::variant<command::Open, command::Restart, command::Pause, command::Resume, command::Step,
+                             command::SetMode, command::SetError>;
+
+/// What is shared with the threads that own it.
+struct LiveSolveSetup {
+  gl::Context* gl = nullptr;                                         ///< as SessionSetup::gl
+  std::function<void(std::shared_ptr<const SessionState>)> publish;  ///< takes each new state
+  const std::atomic<bool>* closing = nullptr;                        ///< loading ends early where it is set
+  const std::atomic<double>* interval = nullptr;                     ///< of publication [s]
+};
+
+/// Made, used and destroyed on one thread; the GL context is current there from its first need to the end.
+class LiveSolve {
+ public:
+  explicit LiveSolve(LiveSolveSetup setup);
+  ~LiveSolve();
+  LiveSolve(const LiveSolve&) = delete;
+  LiveSolve& operator=(const LiveSolve&) = delete;
+
+  /// Carries it out and publishes. What fails becomes SessionState::problem.
+  void carryOut(const Command& command);
+  /// Whether step() has something to do.
+  bool running() const { return phase() == SessionPhase::kRunning; }
+  /// One step of the solve; publishes where due.
+  void step();
+
+ private:
+  void perform(const command::Open& c);
+  void perform(const command::Restart& c);
+  void perform(const command::Pause&);
+  void perform(const command::Resume&);
+  void perform(const command::Step& c);
+  void perform(const command::SetMode& c);
+  void perform(const command::SetError& c);
+
+  SessionPhase phase() const;
+  gl::Context& context();
+  Solve& usable();
+  void begin(Scene scene, const SolveOptions& options, double load_seconds);
+  void announce(const std::string& task);
+  void settle();
+  void note(Error problem);
+  void noteException();
+  bool wantsSnapshot() const;
+  void makeSnapshot();
+  void publish();
+  void fill(SessionState& state) const;
+
+  LiveSolveSetup setup_;
+  std::unique_ptr<Solve> solve_;
+  std::optional<std::string>
+      broken_;                  // what a step threw: the solve takes no more and gives no more snapshots
+  bool failure_noted_ = false;  // numerical trouble is told once
+  bool paused_ = false;
+  std::uint64_t steps_left_ = 0;  // before a pause; 0: no pause is due
+  std::string task_;              // not empty while loading
+  PublishPace pace_;
+  bool stale_ = false;  // the solve has gone on since the snapshot
+
+  std::uint64_t version_ = 0, epoch_ = 0, commands_ = 0, problems_ = 0;
+  std::optional<Error> problem_;
+  std::shared_ptr<const SolveFacts> facts_;
+  std::shared_ptr<const Snapshot> snapshot_;
+  std::shared_ptr<const std::vector<HistoryEntry>> history_;
+};
+
+}  // namespace unshot

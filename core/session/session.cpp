@@ -1,0 +1,121 @@
+#include "session/session.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "session/live_solve.h"
+
+namespace unshot {
+
+struct Session::Impl {
+  const SessionSetup setup;
+  std::atomic<bool> closing{false};
+  std::atomic<double> interval{PublishPace::kLeastInterval};
+
+  mutable std::mutex mutex;  // of what follows
+  std::condition_variable arrived;
+  std::deque<Command> queue;
+  std::uint64_t sent = 0;
+  std::shared_ptr<const SessionState> latest = std::make_shared<const SessionState>();
+
+  std::thread thread;  // last: it uses all of the above
+
+  explicit Impl(SessionSetup setup_in) : setup(std::move(setup_in)) {
+    thread = std::thread([this] { run(); });
+  }
+  ~Impl() {
+    {
+      const std::lock_guard lock(mutex);
+      closing = true;
+    }
+    arrived.notify_all();
+    thread.join();
+  }
+
+  void send(Command command) {
+    {
+      const std::lock_guard lock(mutex);
+      queue.push_back(std::move(command));
+      ++sent;
+    }
+    arrived.notify_all();
+  }
+
+  void run();
+  std::optional<Command> next(bool wait);
+  void publish(std::shared_ptr<const SessionState> state);
+};
+
+void Session::Impl::run() {
+  LiveSolve live({.gl = setup.gl,
+                  .publish = [this](std::shared_ptr<const SessionState> state) { publish(std::move(state)); },
+                  .closing = &closing,
+                  .interval = &interval});
+  while (!closing) {
+    // Only where there is no memory for as much as a state: the next one says what became of the session.
+    try {
+      if (const std::optional<Command> command = next(!live.running()))
+        live.carryOut(*command);
+      else if (live.running() && !closing)
+        live.step();
+    } catch (const std::bad_alloc&) {
+    }
+  }
+}
+
+// The next command; none where there is none yet and `wait` is false, or where the session closes.
+std::optional<Command> Session::Impl::next(bool wait) {
+  std::unique_lock lock(mutex);
+  if (wait) arrived.wait(lock, [this] { return closing || !queue.empty(); });
+  if (closing || queue.empty()) return std::nullopt;
+  std::optional<Command> command(std::move(queue.front()));
+  queue.pop_front();
+  return command;
+}
+
+void Session::Impl::publish(std::shared_ptr<const SessionState> state) {
+  {
+    const std::lock_guard lock(mutex);
+    latest.swap(state);  // the state before is let go of outside the lock
+  }
+  state.reset();
+  if (setup.wake) setup.wake();
+}
+
+Session::Session(SessionSetup setup) : impl_(std::make_unique<Impl>(std::move(setup))) {}
+
+Session::~Session() = default;
+
+void Session::open(std::filesystem::path scene, SolveOptions options) {
+  impl_->send(command::Open{std::move(scene), std::move(options)});
+}
+
+void Session::restart(SolveOptions options) { impl_->send(command::Restart{std::move(options)}); }
+
+void Session::pause() { impl_->send(command::Pause{}); }
+
+void Session::resume() { impl_->send(command::Resume{}); }
+
+void Session::step(std::uint64_t shots) { impl_->send(command::Step{shots}); }
+
+void Session::setMode(std::string key) { impl_->send(command::SetMode{std::move(key)}); }
+
+void Session::setError(double error) { impl_->send(command::SetError{error}); }
+
+std::uint64_t Session::sent() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->sent;
+}
+
+std::shared_ptr<const SessionState> Session::latest() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->latest;
+}
+
+void Session::setPublishInterval(double seconds) { impl_->interval = PublishPace::interval(seconds); }
+
+}  // namespace unshot
