@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
+#include <vector>
 
 #include "gui/support/gui_bench.h"
 
@@ -187,8 +190,8 @@ INSTANTIATE_TEST_SUITE_P(Gui, EveryProvider,
                          [](const auto& row) { return std::string(row.param.info.key); });
 
 void windowWithText() {
-  static float value = 0.3f;
-  static bool on = true;
+  float value = 0.3f;
+  bool on = true;
   ImGui::SetNextWindowPos({20, 10});
   ImGui::SetNextWindowSize({200, 170});
   ImGui::Begin("Window");

@@ -42,9 +42,9 @@ struct Look {
 };
 
 void widgets() {
-  static int method = 1, elements = 4000;
-  static float exposure = 0.5f;
-  static bool ambient = true, edges = false;
+  int method = 1, elements = 4000;
+  float exposure = 0.5f;
+  bool ambient = true, edges = false;
   ImGui::TextDisabled("Cornell box  ·  4,032 elements");
   ImGui::Spacing();
   ImGui::PushItemWidth(-7.5f * ImGui::GetFontSize());

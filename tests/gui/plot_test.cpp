@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "gui/support/gui_bench.h"
 #include "viewer/plot_axes.h"
@@ -16,6 +19,7 @@ namespace {
 using testing_support::expectOnlyInside;
 using testing_support::GuiBench;
 using testing_support::keepPicture;
+using testing_support::pixelAt;
 
 using Points = std::vector<PlotPoint>;
 
@@ -219,6 +223,32 @@ TEST_P(DegeneratePlot, CopesWithAnySize) {
 
 INSTANTIATE_TEST_SUITE_P(Plot, DegeneratePlot, testing::ValuesIn(degenerates()),
                          [](const auto& row) { return row.param.name; });
+
+TEST(Plot, UnderTheMouseStandsTheNearestPoint) {
+  GuiBench bench(360, 260);
+  const Points points{{0, 1}, {50, 0.1}, {100, 0.01}};
+  const PlotStyle style{"shots", "", "", {}, true, 180};
+  const auto litColumn = [&](float mouse_x) {
+    ImGui::GetIO().MousePos = {-1000, -1000};
+    drawn(bench, points, 300, style);
+    const Image8 without = drawn(bench, points, 300, style);
+    ImGui::GetIO().MousePos = {mouse_x, 60};
+    const Image8 with = drawn(bench, points, 300, style);
+    int changed_most = 0, column = -1;
+    for (int x = 20; x < 320; ++x) {
+      int changed = 0;
+      for (int y = 50; y < 150; ++y) changed += pixelAt(with, x, y) != pixelAt(without, x, y);
+      if (changed > changed_most) changed_most = changed, column = x;
+    }
+    return changed_most < 90 ? -1 : column;
+  };
+  EXPECT_EQ(litColumn(-1000), -1);
+  const int middle = litColumn(180);
+  EXPECT_GT(middle, 150);
+  EXPECT_LT(middle, 230);
+  EXPECT_EQ(litColumn(195), middle);
+  EXPECT_LT(litColumn(80), 100);
+}
 
 TEST(Plot, ThousandsOfPointsCostFewVertices) {
   GuiBench bench(360, 260);
