@@ -9,6 +9,7 @@
 #include "gl/context.h"
 #include "render/display_modes.h"
 #include "solver/modes.h"
+#include "viewer/actions.h"
 
 namespace unshot {
 namespace {
@@ -35,6 +36,21 @@ void printTable(const std::string& title, std::span<const Row> table, const std:
   std::cout << "\n";
 }
 
+/// What scripts of the viewer are made of, each with its key.
+void printActions() {
+  std::size_t width = 0;
+  for (const Action& action : actions())
+    width = std::max(width, action.key.size() + 1 + action.argument.size());
+  std::cout << "Actions of the viewer (a line each in --script)\n";
+  for (const Action& action : actions()) {
+    const std::string call = std::string(action.key) + " " + std::string(action.argument);
+    std::cout << "  " << call << std::string(width - call.size() + 2, ' ') << action.help;
+    if (action.shortcut.key != 0) std::cout << " [" << action.shortcut.text << "]";
+    std::cout << "\n";
+  }
+  std::cout << "\n";
+}
+
 int runList() {
   const auto available = [](const auto&) { return std::string(); };
   printTable("Iteration modes (--mode)", iterationModes(), "", available);
@@ -45,6 +61,7 @@ int runList() {
     const std::string reason = p.unavailable();
     return reason.empty() ? reason : reason + " (Debian: apt install " + std::string(p.packages) + ")";
   });
+  printActions();
   std::cout << "Where a key is not given, or is auto, the program chooses and says what it chose.\n";
   return kExitDone;
 }

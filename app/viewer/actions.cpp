@@ -211,7 +211,7 @@ const std::
                 Action{"darker",
                        "",
                        "Half a stop darker",
-                       {GLFW_KEY_MINUS, false, "\u2212"},
+                       {GLFW_KEY_MINUS, false, "-"},
                        [](Viewer& v, const std::string&) { v.ui().settings.view.exposure_ev -= 0.5; }},
                 Action{"lock-exposure",
                        "[on|off]",

@@ -1,4 +1,5 @@
 // Screenshots: the window's content drawn once more, without hurry, into a framebuffer of its own.
+#include <algorithm>
 #include <cctype>
 
 #include "export/atomic_file.h"
@@ -50,10 +51,12 @@ class Canvas {
   int width_, height_;
 };
 
+}  // namespace
+
 /// unshot-SCENE-001.png in the working folder, the first number that is free.
-std::filesystem::path newPictureName(const std::string& scene) {
+std::filesystem::path Viewer::newPictureName() const {
   std::string stem = "unshot";
-  if (!scene.empty()) stem += "-" + scene;
+  if (state_->facts) stem += "-" + state_->facts->scene_name;
   for (char& c : stem) {
     if (c == '/' || c == '\\' || std::iscntrl(static_cast<unsigned char>(c))) c = '_';
   }
@@ -61,21 +64,21 @@ std::filesystem::path newPictureName(const std::string& scene) {
     std::string digits = std::to_string(number);
     digits.insert(0, digits.size() < 3 ? 3 - digits.size() : 0, '0');
     const std::filesystem::path path = std::filesystem::absolute(stem + "-" + digits + ".png");
-    if (!std::filesystem::exists(path)) return path;
+    const bool taken =
+        std::any_of(captures_.begin(), captures_.end(), [&](const Capture& c) { return c.path == path; });
+    if (!taken && !std::filesystem::exists(path)) return path;
   }
 }
 
-}  // namespace
-
 void Viewer::screenshot(std::filesystem::path path, bool with_panels) {
-  if (path.empty()) path = newPictureName(state_->facts ? state_->facts->scene_name : "");
+  if (path.empty()) path = newPictureName();
   checkWritable(path);
-  capture_ = Capture{std::move(path), with_panels};
+  captures_.push_back({std::move(path), with_panels});
+  notice_.clear();
+  input();
 }
 
-void Viewer::capture(int width, int height, int scene_width) {
-  const Capture wanted = *capture_;
-  capture_.reset();
+void Viewer::capture(const Capture& wanted, int width, int height, int scene_width) {
   try {
     const StateGuard guard(setup_.display->functions());
     if (!scene_.empty() && state_->facts && framed_scene_ == state_->facts->scene_path) {

@@ -33,14 +33,22 @@ void helpRow(const char* keys, const std::string& what) {
   ImGui::TextUnformatted(what.c_str());
 }
 
-void helpWindow(Viewer& viewer, float middle) {
+void helpHeading(const char* text) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_PlotLines), "%s", text);
+}
+
+void helpWindow(float middle) {
   const float height = ImGui::GetIO().DisplaySize.y;
   ImGui::SetNextWindowPos({middle, height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSizeConstraints({0, 0}, {2 * middle, height});
   ImGui::SetNextWindowBgAlpha(0.94f);
   ImGui::Begin("help", nullptr, kFixed);
   if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+    helpHeading("Moving");
     for (const MouseRow& row : kMouse) helpRow(row.keys, row.what);
+    helpHeading("Keys");
     for (const Action& action : actions()) {
       if (action.shortcut.key != 0)
         helpRow(std::string(action.shortcut.text).c_str(), std::string(action.help));
@@ -48,7 +56,6 @@ void helpWindow(Viewer& viewer, float middle) {
     ImGui::EndTable();
   }
   ImGui::End();
-  (void)viewer;
 }
 
 void errorWindow(Viewer& viewer, float middle) {
@@ -94,7 +101,7 @@ void buildOverlays(Viewer& viewer, int scene_width, const std::string& notice, b
   } else if (state.phase == SessionPhase::kEmpty && !viewer.error()) {
     line("empty", "Drop an OBJ scene here", {middle, height / 2}, {0.5f, 0.5f});
   }
-  if (viewer.ui().help) helpWindow(viewer, middle);
+  if (viewer.ui().help) helpWindow(middle);
   if (viewer.error()) errorWindow(viewer, middle);
   if (!notice.empty()) line("notice", notice, {middle, height - size}, {0.5f, 1});
 }

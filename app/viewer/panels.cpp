@@ -66,11 +66,11 @@ std::string titleOf(std::span<const Row> table, const std::string& key) {
   return key;
 }
 
-/// "Hemicube", or with `auto` "Hemicube (automatic)" once it is known what that became.
+/// The title of what is in use: with `auto` what that became, once it is known.
 template <class Row>
 std::string shownChoice(std::span<const Row> table, const std::string& asked, const std::string& became) {
   if (asked != "auto") return titleOf(table, asked);
-  return became.empty() ? "Automatic" : titleOf(table, became) + " (automatic)";
+  return became.empty() ? "Automatic" : titleOf(table, became);
 }
 
 struct PhaseLook {
@@ -246,14 +246,13 @@ void convergenceSection(Viewer& viewer) {
     if (state.facts) add(state.measures);
   }
   PlotStyle style;
-  style.x_label = shots ? "shots" : "seconds";
-  style.y_label = "unshot";
+  style.x_unit = shots ? "" : "s";
   style.goal = viewer.ui().options.error;
   style.height = 9.5f * ImGui::GetFontSize();
   logPlot("##unshot", points, style);
-  if (ImGui::RadioButton("against seconds", !shots)) viewer.perform("plot", "seconds");
+  if (ImGui::RadioButton("Seconds", !shots)) viewer.perform("plot", "seconds");
   ImGui::SameLine();
-  if (ImGui::RadioButton("against shots", shots)) viewer.perform("plot", "shots");
+  if (ImGui::RadioButton("Shots", shots)) viewer.perform("plot", "shots");
 }
 
 void displaySection(Viewer& viewer) {

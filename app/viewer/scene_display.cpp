@@ -36,7 +36,9 @@ void SceneDisplay::setSnapshot(std::shared_ptr<const Snapshot> snapshot) {
 
 void SceneDisplay::startFraming(double aspect) {
   framing_.reset();
-  if (snapshot_) framing_.emplace(context_, snapshot_, AutomaticCameraOptions{.aspect = aspect});
+  AutomaticCameraOptions options;
+  options.aspect = aspect;
+  if (snapshot_) framing_.emplace(context_, snapshot_, options);
 }
 
 std::optional<Camera> SceneDisplay::continueFraming(std::optional<double> seconds) {

@@ -85,6 +85,7 @@ void Viewer::takeState(double now) {
   if (another) {
     rate_points_.clear();
     error_.reset();
+    if (setup_.title) setup_.title(state_->facts->scene_name + " \u2013 Unshot");
     frame_wanted_ = frame_wanted_ || state_->facts->scene_path != framed_scene_;
   }
   noteRates(now);
@@ -202,7 +203,7 @@ void Viewer::resizeWindow(int width, int height) {
 
 bool Viewer::settled() const {
   return session_.sent() == state_->commands && state_->phase != SessionPhase::kLoading && !frame_wanted_ &&
-         !scene_.framing() && !capture_;
+         !scene_.framing() && captures_.empty();
 }
 
 bool Viewer::waitIsOver(const ScriptLine& line, double now) {
@@ -219,7 +220,7 @@ bool Viewer::waitIsOver(const ScriptLine& line, double now) {
 }
 
 void Viewer::runScript(double now) {
-  while (script_at_ < script_.size() && !closing_ && !capture_) {
+  while (script_at_ < script_.size() && !closing_ && captures_.empty()) {
     const ScriptLine& line = script_[script_at_];
     if (line.wait != WaitFor::kNothing) {
       if (!waitIsOver(line, now)) return;
@@ -249,7 +250,7 @@ double Viewer::nextUpdate() const {
 double Viewer::nextFrame(double now) const {
   const double soon = last_frame_ + kFrameSeconds;
   if (closing_) return now;
-  if (gui_frames_ > 0 || capture_ || navigator_.moving() || scene_.gliding() || scene_.framing() ||
+  if (gui_frames_ > 0 || !captures_.empty() || navigator_.moving() || scene_.gliding() || scene_.framing() ||
       (frame_wanted_ && state_->snapshot))
     return soon;
   if (state_->snapshot != scene_.snapshot()) {
@@ -351,7 +352,12 @@ void Viewer::draw(GLuint framebuffer, int width, int height) {
     at_rest_drawn_ = at_rest_drawn_ || (now >= last_motion_ + kRestSeconds && idle(state_->phase));
   }
   paint(framebuffer, width, height, true);
-  if (capture_) capture(width, height, scene_width);
+  // ImGui shows a new window one frame late.
+  if (!captures_.empty() && gui_frames_ == 0) {
+    const Capture next = captures_.front();
+    captures_.pop_front();
+    capture(next, width, height, scene_width);
+  }
   gl::checkErrors(setup_.display->functions(), "drawing a frame of the viewer");
 }
 

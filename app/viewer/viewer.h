@@ -29,8 +29,10 @@ struct ViewerSetup {
   DisplaySettings settings;
   std::vector<ScriptLine> script;
   std::string script_name;
-  /// Asks the window for another size [px].
+  /// Asks the window for another size [px]; may be empty.
   std::function<void(int, int)> resize;
+  /// Gives the window another title; may be empty.
+  std::function<void(const std::string&)> title;
 };
 
 /// What the panels show and actions change, besides the session.
@@ -140,7 +142,8 @@ class Viewer {
   int samplesNow(double now, int width, int height) const;
   void takeSnapshot();
   void paint(GLuint framebuffer, int width, int height, bool gui);
-  void capture(int width, int height, int scene_width);
+  void capture(const Capture& wanted, int width, int height, int scene_width);
+  std::filesystem::path newPictureName() const;
 
   ViewerSetup setup_;
   struct GuiContext {
@@ -177,7 +180,7 @@ class Viewer {
   std::vector<ScriptLine> script_;
   std::size_t script_at_ = 0;
   double wait_began_ = -1;
-  std::optional<Capture> capture_;
+  std::deque<Capture> captures_;
   int exit_code_ = 0;
   bool closing_ = false;
 };

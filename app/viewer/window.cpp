@@ -103,6 +103,7 @@ int runWindow(ViewerSetup setup, const WindowOptions& wanted) {
     setup.display = display.get();
     setup.session = {solver.get(), [] { glfwPostEmptyEvent(); }};
     setup.resize = [window](int width, int height) { glfwSetWindowSize(window, width, height); };
+    setup.title = [window](const std::string& title) { glfwSetWindowTitle(window, title.c_str()); };
     int code = 0;
     {
       Viewer viewer(std::move(setup));
