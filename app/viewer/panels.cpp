@@ -119,6 +119,26 @@ void line(const char* name, const std::string& value, std::string_view tip = {})
 // --- Sections
 // -----------------------------------------------------------------------------------------------------
 
+void chooseScene(Viewer& viewer) {
+  const SessionState& state = viewer.state();
+  const float help_width = ImGui::CalcTextSize("Help").x + 2 * ImGui::GetStyle().FramePadding.x;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - help_width - ImGui::GetStyle().ItemSpacing.x);
+  const std::string shown = state.facts ? state.facts->scene_name : "no scene";
+  if (ImGui::BeginCombo("##scene", shown.c_str(), ImGuiComboFlags_HeightLarge)) {
+    for (const std::filesystem::path& scene : viewer.bundledScenes()) {
+      const bool present = state.facts && state.facts->scene_path == scene;
+      if (ImGui::Selectable(scene.stem().string().c_str(), present)) viewer.perform("open", scene.string());
+    }
+    ImGui::TextDisabled("or drop an OBJ file on the window");
+    ImGui::EndCombo();
+  } else {
+    tooltip(state.facts ? state.facts->scene_path.string() : "Scenes to begin with");
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Help")) viewer.perform("help");
+  tooltip("H: keys and mouse");
+}
+
 void head(Viewer& viewer) {
   const SessionState& state = viewer.state();
   const PhaseLook look = lookOf(state);
@@ -369,12 +389,7 @@ void buildSidePanel(Viewer& viewer, int left) {
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoBringToFrontOnFocus);
   // The head stays, what is below scrolls.
-  const SessionState& state = viewer.state();
-  ImGui::TextUnformatted(state.facts ? state.facts->scene_name.c_str() : "Unshot");
-  if (state.facts) tooltip(state.facts->scene_path.string());
-  const char* help = "H: help";
-  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(help).x);
-  ImGui::TextDisabled("%s", help);
+  chooseScene(viewer);
   head(viewer);
   ImGui::Separator();
   ImGui::BeginChild("sections");

@@ -52,10 +52,6 @@ Viewer::Viewer(ViewerSetup setup)
 
 Viewer::~Viewer() = default;
 
-const gl::ContextInfo* Viewer::solverRenderer() const {
-  return setup_.session.gl ? &setup_.session.gl->info() : nullptr;
-}
-
 void Viewer::setScale(double scale) {
   if (scale == scale_) return;
   scale_ = scale;

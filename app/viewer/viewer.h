@@ -25,6 +25,7 @@ struct ViewerSetup {
   gl::Context* display = nullptr;  ///< current on the main thread; outlives the viewer
   SessionSetup session;
   std::filesystem::path scene;
+  std::vector<std::filesystem::path> bundled;  ///< scenes that the panel offers
   SolveOptions options;
   DisplaySettings settings;
   std::vector<ScriptLine> script;
@@ -87,7 +88,7 @@ class Viewer {
   ViewerState& ui() { return ui_; }
   const SessionState& state() const { return *state_; }
   const gl::ContextInfo& renderer() const { return setup_.display->info(); }
-  const gl::ContextInfo* solverRenderer() const;
+  const std::vector<std::filesystem::path>& bundledScenes() const { return setup_.bundled; }
   const Camera& camera() const { return navigator_.camera(); }
   double scale() const { return scale_; }
   double exposure() const { return scene_.exposure(); }
