@@ -268,11 +268,16 @@ void convergenceSection(Viewer& viewer) {
   PlotStyle style;
   style.x_unit = shots ? "" : "s";
   style.goal = viewer.ui().options.error;
-  style.height = 9.5f * ImGui::GetFontSize();
-  logPlot("##unshot", points, style);
+  style.height = 9 * ImGui::GetFontSize();
+  // On the curve's first line, whose left half is free.
+  const ImVec2 corner = ImGui::GetCursorPos();
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0, 0));
   if (ImGui::RadioButton("Seconds", !shots)) viewer.perform("plot", "seconds");
   ImGui::SameLine();
   if (ImGui::RadioButton("Shots", shots)) viewer.perform("plot", "shots");
+  ImGui::PopStyleVar();
+  ImGui::SetCursorPos(corner);
+  logPlot("##unshot", points, style);
 }
 
 void displaySection(Viewer& viewer) {
@@ -327,11 +332,11 @@ void figuresSection(Viewer& viewer) {
        countText(state.measures.shots) +
            (running ? "  (" + countText(static_cast<std::uint64_t>(rates.shots)) + "/s)" : ""),
        "How often a patch has shot its unshot radiosity");
-  line("Columns",
-       countText(state.measures.rows) +
-           (running ? "  (" + countText(static_cast<std::uint64_t>(rates.columns)) + "/s)" : ""),
-       "Columns of form factors computed; the others were kept from before");
-  if (state.drawn > 0) line("Hemicubes", countText(state.drawn), "Drawn or traced for the columns");
+  std::string columns = countText(state.measures.rows);
+  if (running) columns += "  (" + countText(static_cast<std::uint64_t>(rates.columns)) + "/s)";
+  if (state.drawn > 0) columns += " from " + countText(state.drawn);
+  line(state.drawn > 0 ? "Columns, hemicubes" : "Columns", columns,
+       "Columns of form factors computed, and from how many hemicubes; the others were kept from before");
   line("Patches, elements", countText(facts.patches) + ", " + countText(facts.elements),
        "Patches shoot, elements receive; both count lit sides only");
   line("Time", durationText(state.measures.seconds) + ", CPU " + durationText(state.measures.cpu_seconds),
