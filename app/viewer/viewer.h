@@ -140,7 +140,7 @@ class Viewer {
   bool settled() const;
   void fail(const Error& error);
   void navigate(double seconds, int scene_width, int scene_height);
-  int samplesNow(double now, int width, int height) const;
+  bool mayBeSharpened(double now) const;
   void takeSnapshot();
   void paint(GLuint framebuffer, int width, int height, bool gui);
   void capture(const Capture& wanted, int width, int height, int scene_width);
@@ -164,7 +164,6 @@ class Viewer {
   double last_frame_ = 0, last_frame_end_ = 0, last_motion_ = 0;
   double frame_cost_ = 0;  // of a frame that drew the scene [s]
   bool drew_scene_ = false;
-  bool at_rest_drawn_ = false;
 
   // The scene shown.
   std::filesystem::path framed_scene_;  // the camera is for this one
