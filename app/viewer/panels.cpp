@@ -382,12 +382,14 @@ void notesSection(Viewer& viewer) {
 
 int panelWidth(const ViewerState& ui, double scale, int width) {
   if (!ui.panel) return 0;
-  return std::min(static_cast<int>(std::lround(kPanelWidth * scale)), width / 2);
+  const int wanted = static_cast<int>(std::lround(kPanelWidth * scale));
+  // Beside a cramped panel there would be no scene.
+  return width >= 2 * wanted ? wanted : 0;
 }
 
 void buildSidePanel(Viewer& viewer, int left) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
-  if (!viewer.ui().panel) return;
+  if (static_cast<float>(left) >= window.x) return;
   ImGui::SetNextWindowPos({static_cast<float>(left), 0});
   ImGui::SetNextWindowSize({window.x - static_cast<float>(left), window.y});
   ImGui::Begin("panel", nullptr,

@@ -6,10 +6,11 @@
 
 namespace unshot {
 
-/// Width of the side panel in a window `width` pixels wide; 0 where it is hidden.
+/// Width of the side panel in a window `width` pixels wide; 0 where it is hidden or the window is too
+/// small for it.
 int panelWidth(const ViewerState& ui, double scale, int width);
 
-/// The panel at the right edge, from x = `left` on.
+/// The panel at the right edge, from x = `left` on; nothing where that is the edge itself.
 void buildSidePanel(Viewer& viewer, int left);
 
 /// Messages, help and what is being loaded, over the scene's `scene_width` pixels.

@@ -88,6 +88,8 @@ void Viewer::takeState(double now) {
   noteRates(now);
   if (state_->problems > problems_seen_ && state_->problem) {
     problems_seen_ = state_->problems;
+    // What was asked for is not to be had: the panel shows what is.
+    if (state_->facts && session_.sent() == state_->commands) ui_.options = state_->facts->options;
     fail(*state_->problem);
   }
   gui_frames_ = std::max(gui_frames_, news || another ? kFramesAfterInput : 0);

@@ -100,6 +100,7 @@ int runWindow(ViewerSetup setup, const WindowOptions& wanted) {
     GLFWwindow* window = display->window();
     display->makeCurrent();
     glfwSwapInterval(1);
+    glfwSetWindowSizeLimits(window, 240, 180, GLFW_DONT_CARE, GLFW_DONT_CARE);
     setup.display = display.get();
     setup.session = {solver.get(), [] { glfwPostEmptyEvent(); }};
     setup.resize = [window](int width, int height) { glfwSetWindowSize(window, width, height); };
