@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "base/clock.h"
 #include "formfactor/methods.h"
@@ -53,7 +52,8 @@ struct Solve::Impl {
   std::string stopped_by;
   Measures measures;
   std::vector<HistoryEntry> history;
-  std::optional<std::pair<double, double>> rest_began;                   // wall and CPU time
+  bool resting = false;
+  double measured_wall = 0, measured_cpu = 0;                            // when `measures` were taken
   std::shared_ptr<const std::vector<glm::vec3>> direct, element_direct;  // for emission_shots of the state
   std::uint64_t emission_shots = 0;
   double watched_fraction = 1;
@@ -140,15 +140,17 @@ void Solve::Impl::stop(SolveState how, std::string why) {
 }
 
 void Solve::Impl::wakeClocks() {
-  if (!rest_began) return;
-  solve_start += wallSeconds() - rest_began->first;
-  cpu_start += cpuSeconds() - rest_began->second;
-  rest_began.reset();
+  if (!resting) return;
+  solve_start += wallSeconds() - measured_wall;
+  cpu_start += cpuSeconds() - measured_cpu;
+  resting = false;
 }
 
 void Solve::Impl::measure() {
-  measures.seconds = wallSeconds() - solve_start;
-  measures.cpu_seconds = cpuSeconds() - cpu_start - cpu_setup;
+  measured_wall = wallSeconds();
+  measured_cpu = cpuSeconds();
+  measures.seconds = measured_wall - solve_start;
+  measures.cpu_seconds = measured_cpu - cpu_start - cpu_setup;
   measures.rows = transport->computed();
   const double emitted = state->emittedPower();
   if (!std::isfinite(emitted)) {
@@ -237,9 +239,7 @@ void Solve::setError(double error) {
   s.record();
 }
 
-void Solve::rest() {
-  if (!impl_->rest_began) impl_->rest_began = {wallSeconds(), cpuSeconds()};
-}
+void Solve::rest() { impl_->resting = true; }
 
 SolveState Solve::state() const { return impl_->progress_state; }
 

@@ -81,7 +81,7 @@ class Solve {
   /// Another SolveOptions::error: a running solve (or one at a limit) that has reached it converges at once,
   /// a converged one that has not runs again. Throws a usage Error unless 0 < error < 1.
   void setError(double error);
-  /// Stops the clocks of `measures` until the next step.
+  /// Stops the clocks of `measures`, as the last step left them, until the next step.
   void rest();
 
   SolveState state() const;

@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstring>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -76,6 +78,16 @@ class SessionWatch {
     ADD_FAILURE() << "waited in vain: " << what;
     return seen_.empty() ? std::make_shared<const SessionState>() : seen_.back().state;
   }
+  /// Opens a scene and waits until it is paused with nothing shot: the pause is sent while the scene is
+  /// meshed, so that it cannot come late.
+  StatePointer openPaused(const std::filesystem::path& scene, const SolveOptions& options) {
+    const std::uint64_t before = session_->latest()->epoch;
+    pause_while_meshing_ = true;
+    session_->open(scene, options);
+    return wait("a scene is paused", [before](const SessionState& s) {
+      return s.epoch > before && s.phase == SessionPhase::kPaused;
+    });
+  }
   /// Waits until all commands sent by now are carried out.
   StatePointer carriedOut() {
     const std::uint64_t sent = session_->sent();
@@ -98,6 +110,7 @@ class SessionWatch {
   // On the solver thread, so that no publication is missed.
   void woken() {
     Seen now{wallSeconds(), session_->latest(), 0};
+    if (now.state->task.starts_with("meshing") && pause_while_meshing_.exchange(false)) session_->pause();
     if (now.state->snapshot) now.fields = fingerprint(*now.state->snapshot);
     const std::lock_guard lock(mutex_);
     seen_.push_back(std::move(now));
@@ -106,6 +119,7 @@ class SessionWatch {
 
   mutable std::mutex mutex_;
   std::condition_variable published_;
+  std::atomic<bool> pause_while_meshing_{false};
   std::vector<Seen> seen_;
   std::unique_ptr<Session> owned_;
   Session* session_ = nullptr;

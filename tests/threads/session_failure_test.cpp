@@ -133,9 +133,14 @@ TEST_F(SessionFailure, OfASolveKeepsItsLastStateAndCanBeRestarted) {
   EXPECT_EQ(still->phase, SessionPhase::kFailed);
   EXPECT_EQ(still->problems, 1u);
   watch->restart(closedForm(6, 0.5));
-  watch->step(2);
-  EXPECT_NE(watch.rested()->phase, SessionPhase::kFailed);
+  watch.carriedOut();
   watch.close();
+  for (const auto& seen : watch.seen()) {
+    if (seen.state->task.empty() && seen.state->epoch == 2 && seen.state->measures.shots == 0) {
+      EXPECT_EQ(seen.state->phase, SessionPhase::kRunning);
+    }
+  }
+  EXPECT_EQ(watch.seen().back().state->epoch, 2u);
   checkPublications(watch.seen());
 }
 

@@ -85,9 +85,7 @@ TEST(Session, ShowsTheUnlitSceneAtOnceAndSaysWhatItLoads) {
 
 TEST(Session, APauseAfterOpenComesBeforeTheFirstShot) {
   SessionWatch watch;
-  watch->open(asset("cornell_box.obj"), closedForm(150, 1e-3));
-  watch->pause();
-  const StatePointer paused = watch.carriedOut();
+  const StatePointer paused = watch.openPaused(asset("cornell_box.obj"), closedForm(150, 1e-3));
   EXPECT_EQ(paused->phase, SessionPhase::kPaused);
   EXPECT_EQ(paused->measures.shots, 0u);
   watch->resume();
@@ -98,8 +96,7 @@ TEST(Session, APauseAfterOpenComesBeforeTheFirstShot) {
 
 TEST(Session, StepShootsAsManyAsAskedForAndPauses) {
   SessionWatch watch;
-  watch->open(asset("cornell_box.obj"), endless());
-  watch->pause();
+  watch.openPaused(asset("cornell_box.obj"), endless());
   std::uint64_t expected = 0;
   for (const std::uint64_t shots : {1, 0, 3, 17}) {
     watch->step(shots);
@@ -117,8 +114,7 @@ TEST(Session, StepShootsAsManyAsAskedForAndPauses) {
 
 TEST(Session, ClocksStandWhilePaused) {
   SessionWatch watch;
-  watch->open(asset("cornell_box.obj"), endless());
-  watch->pause();
+  watch.openPaused(asset("cornell_box.obj"), endless());
   watch->step(4);
   const double paused_at = watch.rested()->measures.seconds;
   SessionWatch other;  // takes its time
@@ -136,8 +132,7 @@ TEST(Session, SwitchesToEveryModeAndKeepsWhatWasShot) {
   const Snapshot expected = plain->snapshot();
   for (const IterationModeRow& mode : iterationModes()) {
     SessionWatch watch;
-    watch->open(asset("cornell_box.obj"), closedForm(150, 1e-8));
-    watch->pause();
+    watch.openPaused(asset("cornell_box.obj"), closedForm(150, 1e-8));
     watch->step(9);
     const StatePointer before = watch.rested();
     watch->setMode(std::string(mode.info.key));
@@ -222,9 +217,7 @@ TEST(Session, StopsAtALimitAndGoesOnOnlyAfterARestart) {
 TEST(Session, APublicationWaitsForItsInterval) {
   SessionWatch watch;
   watch->setPublishInterval(3600);
-  watch->open(asset("cornell_box.obj"), endless());
-  watch->pause();
-  watch.carriedOut();
+  watch.openPaused(asset("cornell_box.obj"), endless());
   const std::size_t before = watch.seen().size();
   watch->step(400);
   EXPECT_EQ(watch.rested()->measures.shots, 400u);

@@ -69,8 +69,7 @@ TEST(SessionGl, ClosesWhileItLoadsAndWhileItShoots) {
 TEST(SessionGl, AStepThatThrowsKeepsTheLastSnapshot) {
   const auto context = gl::createContext("osmesa");
   SessionWatch watch(context.get());
-  watch->open(asset("two_patches.obj"), hemicubes(60, 1e-12));
-  watch->pause();
+  watch.openPaused(asset("two_patches.obj"), hemicubes(60, 1e-12));
   watch->step(2);
   const StatePointer before = watch.rested();
   // The solver thread waits for the next command: nothing else uses the table.
