@@ -7,7 +7,6 @@
 #include "base/clock.h"
 #include "formfactor/methods.h"
 #include "gl/context.h"
-#include "mesh/build.h"
 #include "session/fields.h"
 #include "session/plan.h"
 #include "solver/ambient.h"
@@ -37,7 +36,7 @@ std::vector<glm::dvec3> perPatch(const Mesh& mesh, glm::dvec3 Side::*member) {
 struct Solve::Impl {
   SolveOptions options;
   Scene scene;
-  std::shared_ptr<Mesh> mesh;
+  std::shared_ptr<const Mesh> mesh;
   std::string mode_key, form_factors_key;
   std::vector<PlanDecision> plan;
   Diagnostics diagnostics;
@@ -75,19 +74,14 @@ struct Solve::Impl {
 
 void Solve::Impl::prepare(const std::function<gl::Context&()>& gl) {
   checkError(options.error);
-  const double start = wallSeconds();
   cpu_start = cpuSeconds();
-  mesh = std::make_shared<Mesh>(
-      buildMesh(scene, {options.elements, options.element_size, options.emit_front_only}));
-  seconds.mesh = wallSeconds() - start;
-
-  const double plan_start = wallSeconds();
-  form_factors_key = options.form_factors;
-  if (form_factors_key == "auto") form_factors_key = nothingCanOcclude(*mesh) ? "closed-form" : "hemicube";
-  plan = makePlan(scene, *mesh, form_factors_key);
-  diagnostics = scene.diagnostics;
-  diagnostics.insert(diagnostics.end(), mesh->diagnostics.begin(), mesh->diagnostics.end());
-  seconds.plan = wallSeconds() - plan_start;
+  Preparation prepared = unshot::prepare(scene, options);
+  mesh = std::move(prepared.mesh);
+  form_factors_key = std::move(prepared.form_factors);
+  plan = std::move(prepared.plan);
+  diagnostics = std::move(prepared.diagnostics);
+  seconds.mesh = prepared.mesh_seconds;
+  seconds.plan = prepared.plan_seconds;
 
   chooseMode(options.mode);
   const double cpu_before_setup = cpuSeconds();
@@ -107,9 +101,6 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl) {
 
 void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl) {
   const FormFactorMethodRow& row = findChoice(formFactorMethods(), form_factors_key, "form-factor method");
-  const std::string unsuited = row.unsuited(*mesh);
-  if (!unsuited.empty())
-    diagnostics.push_back({Severity::kWarning, "unsuited-method", unsuited, {}, "--form-factors auto"});
   FormFactorSetup setup;
   setup.mesh = mesh.get();
   setup.seed = options.seed;

@@ -199,6 +199,20 @@ TEST_F(SolveWriting, InterruptedTwiceEndsAtOnce) {
   EXPECT_THAT(folder_.read("p.json"), StartsWith("{"));
 }
 
+// The C library says on standard error what is loaded.
+TEST(Check, NeedsNoOpenGl) {
+  const TempFolder folder;
+  writeRoom(folder, testing_support::boxObj());
+  ::setenv("LD_DEBUG", "files", 1);
+  const ProgramResult result = runProgram(folder, {"check", "room.obj"});
+  ::unsetenv("LD_DEBUG");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_THAT(result.err, HasSubstr("libc.so"));
+  EXPECT_THAT(result.err, testing::Not(HasSubstr("libOSMesa")));
+  EXPECT_THAT(result.err, testing::Not(HasSubstr("libEGL")));
+  EXPECT_THAT(result.out, HasSubstr("Nothing is wrong"));
+}
+
 TEST(Check, PrintsFiguresAndJson) {
   const TempFolder folder;
   writeRoom(folder);
