@@ -64,8 +64,8 @@ void SolverArguments::addMesh(Command& command) {
 
 void SolverArguments::addLimits(Command& command) {
   command.group("When to stop");
-  command.add("--error", options_.error, "X", "Stop when this fraction of the power is unshot (default 0.01)",
-              numberWithin(0, 1, {}, true));
+  command.add("--error", options_.error, "X",
+              "Stop when this fraction of the power is unshot, 0 < X < 1 (default 0.01)", properFraction());
   command.add("--max-seconds", options_.max_seconds, "T", "Stop after this time [s] and write the result",
               positiveNumber());
   command.add("--max-shots", options_.max_shots, "N", "Stop after so many shots and write the result",

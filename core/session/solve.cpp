@@ -22,7 +22,7 @@ constexpr double kStagnationShare = 1e-4;
 
 void checkError(double error) {
   if (error > 0 && error < 1) return;
-  throw Error(ErrorKind::kUsage, "the error asked for must lie between 0 and 1", {}, "--error 0.01");
+  throw Error(ErrorKind::kUsage, "the error asked for must be above 0 and below 1", {}, "--error 0.01");
 }
 
 std::vector<glm::dvec3> perPatch(const Mesh& mesh, glm::dvec3 Side::*member) {
