@@ -94,8 +94,9 @@ int concludeSolve(const Solve& solve, const SolveOptions& options, const Interru
     default:
       break;
   }
-  throw Error(ErrorKind::kInternal, "the solve failed: " + solve.stoppedBy(), solve.scene().path.string(),
-              "another --mode or --form-factors; what was reached is written");
+  const Error& failure = *solve.failure();
+  throw Error(failure.kind(), failure.what(), failure.where(),
+              failure.advice() + "; what was reached is written");
 }
 
 /// Diagnostics from number `first` on.

@@ -50,6 +50,7 @@ struct Solve::Impl {
 
   SolveState progress_state = SolveState::kRunning;
   std::string stopped_by;
+  std::optional<Error> failure;
   Measures measures;
   std::vector<HistoryEntry> history;
   std::optional<std::pair<double, double>> rest_began;                   // wall and CPU time
@@ -65,6 +66,8 @@ struct Solve::Impl {
   void makeTransport(const std::function<gl::Context&()>& gl);
   void chooseMode(const std::string& key);
   void stop(SolveState how, std::string why);
+  void fail(ErrorKind kind, std::string why, std::string advice);
+  bool nothingDiesOut() const;
   void wakeClocks();
   void measure();
   void checkLimits();
@@ -130,6 +133,11 @@ void Solve::Impl::stop(SolveState how, std::string why) {
   stopped_by = std::move(why);
 }
 
+void Solve::Impl::fail(ErrorKind kind, std::string why, std::string advice) {
+  failure.emplace(kind, "the solve failed: " + why, scene.path.string(), std::move(advice));
+  stop(SolveState::kFailed, std::move(why));
+}
+
 void Solve::Impl::wakeClocks() {
   if (!rest_began) return;
   solve_start += wallSeconds() - rest_began->first;
@@ -148,7 +156,7 @@ void Solve::Impl::measure() {
 
 void Solve::Impl::checkLimits() {
   if (!std::isfinite(measures.unshot_fraction)) {
-    stop(SolveState::kFailed, "a value is no longer finite");
+    fail(ErrorKind::kInternal, "a value is no longer finite", "another --mode or --form-factors");
   } else if (measures.unshot_fraction <= options.error) {
     stop(SolveState::kConverged, "error");
   } else if (options.max_shots && measures.shots >= *options.max_shots) {
@@ -158,10 +166,32 @@ void Solve::Impl::checkLimits() {
   }
 }
 
+// Whether the light still on its way goes from wall to wall that reflects all of it.
+bool Solve::Impl::nothingDiesOut() const {
+  double left = 0, reflected = 0;
+  for (std::size_t q = 0; q < state->patchCount(); ++q) {
+    for (int c = 0; c < 3; ++c) {
+      const double power = state->area()[q] * std::abs(state->unshot()[q][c]);
+      left += power;
+      if (state->reflectance()[q][c] >= 1) reflected += power;
+    }
+  }
+  return reflected >= (1 - kStagnationShare) * left;
+}
+
 void Solve::Impl::checkStagnation() {
   if (measures.shots - watched_shots < kStagnationPasses * mesh->patch_count) return;
   if (measures.unshot_fraction > (1 - kStagnationShare) * watched_fraction) {
-    stop(SolveState::kFailed, "stagnation: the unshot power does not fall; do all walls reflect everything?");
+    if (nothingDiesOut()) {
+      fail(ErrorKind::kInput,
+           "no finite solution: the walls that the light reaches reflect all of it (reflectance 1) and let "
+           "none "
+           "out, so it never dies out",
+           "a reflectance (Kd) below 1 for some wall, or --max-shots N for the light of a number of bounces");
+    } else {
+      fail(ErrorKind::kInternal, "stagnation: the unshot power does not fall",
+           "another --mode or --form-factors");
+    }
   }
   watched_fraction = measures.unshot_fraction;
   watched_shots = measures.shots;
@@ -289,5 +319,6 @@ const PhaseSeconds& Solve::seconds() const { return impl_->seconds; }
 std::size_t Solve::keptBytes() const { return impl_->transport->keptBytes(); }
 std::uint64_t Solve::drawn() const { return impl_->transport->drawn(); }
 const std::string& Solve::stoppedBy() const { return impl_->stopped_by; }
+const std::optional<Error>& Solve::failure() const { return impl_->failure; }
 
 }  // namespace unshot

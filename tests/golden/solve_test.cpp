@@ -199,6 +199,20 @@ TEST_F(SolveWriting, InterruptedTwiceEndsAtOnce) {
   EXPECT_THAT(folder_.read("p.json"), StartsWith("{"));
 }
 
+TEST(Solve, ARoomThatReflectsAllHasNoSolutionAndIsWrittenAllTheSame) {
+  const TempFolder folder;
+  folder.write("room.mtl", "newmtl white\nKd 1 1 1\nnewmtl light\nKd 1 1 1\nKe 3 3 3\n");
+  folder.write("room.obj", testing_support::roomObj());
+  const ProgramResult result =
+      runProgram(folder, {"solve", "room.obj", "--elements", "24", "--report", "p.json"});
+  EXPECT_EQ(result.code, 3);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("no finite solution"),
+                                HasSubstr("\n  try: a reflectance (Kd) below 1"), HasSubstr("--max-shots")));
+  EXPECT_THAT(nlohmann::json::parse(folder.read("p.json"))["stopped_by"].get<std::string>(),
+              StartsWith("no finite solution"));
+  EXPECT_EQ(runProgram(folder, {"solve", "room.obj", "--elements", "24", "--max-shots", "100"}).code, 5);
+}
+
 // The C library says on standard error what is loaded.
 TEST(Check, NeedsNoOpenGl) {
   const TempFolder folder;
