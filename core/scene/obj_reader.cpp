@@ -101,7 +101,7 @@ void reportNoLight(Scene& scene) {
                                [&](const Polygon& p) { return scene.materials[p.material].emits(); });
   if (lit) return;
   scene.diagnostics.push_back({Severity::kWarning, "no-light", "no face emits light: the scene is dark",
-                               scene.path.string(), "give a material a Ke, or light the scene with a sky"});
+                               scene.path.string(), "give a material of the MTL file a Ke"});
 }
 
 }  // namespace

@@ -118,6 +118,14 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& each) { return std::string(each.param.name); });
 
 struct BadProbes {
+TEST(DoubtfulScene, AdviceAgainstDarknessNamesOnlyWhatThereIs) {
+  const TempFolder folder;
+  folder.write("room.mtl", testing_support::kMaterials);
+  folder.write("dark.obj", roomObj("white", "white"));
+  EXPECT_THAT(runProgram(folder, {"check", "dark.obj"}).out,
+              AllOf(HasSubstr("try: give a material of the MTL file a Ke\n"), Not(HasSubstr("sky"))));
+}
+
   const char* name;
   std::string content;
   std::string place;
