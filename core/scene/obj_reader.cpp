@@ -88,6 +88,13 @@ void reportStatements(const ObjScan& scan, Scene& scene) {
          counted(t.count, "free-form statement", "free-form statements") + " read past", place(t),
          "convert curves and surfaces to polygons"});
   }
+  if (const Tally& t = scan.lost_texture; t.count > 0) {
+    scene.diagnostics.push_back(
+        {Severity::kWarning, "texture-index",
+         counted(t.count, "corner", "corners") + " with a texture index that leads nowhere (there are " +
+             counted(scan.texture_count, "texture coordinate", "texture coordinates") + "); it is not needed",
+         place(t), "export the scene again if its textures matter elsewhere"});
+  }
   if (const Tally& t = scan.unknown; t.count > 0) {
     scene.diagnostics.push_back(
         {Severity::kWarning, "unknown-statement",
