@@ -134,6 +134,7 @@ int finishSolve(const SolveRequest& request, const Solve& solve, LazyContext& co
 int runSolve(const SolveRequest& request) {
   const InterruptFlag interrupted;
   checkOutputs(request);
+  printDiagnostics(std::cerr, endingNotes(request));
   useShaderDir(request.shader_dir);
   std::vector<Probe> probes;
   if (!request.probe.empty()) probes = readProbes(request.probe);
@@ -164,6 +165,7 @@ void setUpSolve(Command& command) {
   command.footer(
       "Lengths are in the scene's unit, taken as metres. Ctrl-C ends the solve between two steps and\n"
       "writes what was reached; a second one ends the program at once.\n"
+      "Every file is written in its option's format, whatever its name ends with.\n"
       "\n"
       "Example: unshot solve scene.obj --elements 20000 --png picture.png --report figures.json");
   auto arguments = std::make_shared<SolveArguments>(command);

@@ -213,6 +213,16 @@ TEST(Solve, ARoomThatReflectsAllHasNoSolutionAndIsWrittenAllTheSame) {
   EXPECT_EQ(runProgram(folder, {"solve", "room.obj", "--elements", "24", "--max-shots", "100"}).code, 5);
 }
 
+TEST(Solve, SaysWhereANameEndsAsIfTheFileHeldSomethingElse) {
+  const TempFolder folder;
+  writeRoom(folder);
+  const ProgramResult result =
+      runProgram(folder, {"solve", "room.obj", "--elements", "60", "--ply", "p.obj", "--report", "P.JSON"});
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.err, "p.obj: note: written as PLY solution all the same: --ply writes nothing else\n");
+  EXPECT_THAT(folder.read("p.obj"), StartsWith("ply\n"));
+}
+
 // The C library says on standard error what is loaded.
 TEST(Check, NeedsNoOpenGl) {
   const TempFolder folder;
