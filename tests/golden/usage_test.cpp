@@ -1,6 +1,8 @@
 // What the program says about itself, and about words that it does not understand: exit codes 0 and 2.
 #include <gmock/gmock.h>
 
+#include <cstdlib>
+
 #include "support/run_program.h"
 #include "support/scenes.h"
 
@@ -71,6 +73,17 @@ TEST(View, SaysHowToSolveWithoutAViewer) {
 struct UsageCase {
   std::vector<std::string> arguments;
   std::string message;
+TEST(AppRun, RefusesASecondArgument) {
+  const TempFolder folder;
+  const std::string command =
+      "'" UNSHOT_SOURCE_DIR "/app/run' one.obj two >'" + folder / "out" + "' 2>'" + folder / "err" + "'";
+  const int status = std::system(command.c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  EXPECT_THAT(folder.read("out"), IsEmpty());
+  EXPECT_THAT(folder.read("err"), StartsWith("unshot: 'two' is one argument too many\n  try: "));
+}
+
 };
 
 void PrintTo(const UsageCase& c, std::ostream* out) { *out << testing::PrintToString(c.arguments); }
