@@ -59,8 +59,11 @@ TEST(List, NamesEveryTable) {
   }
 }
 
-TEST(View, SaysHowToSolveWithoutAViewer) {
+TEST(View, SaysHowToSolveWithoutADisplay) {
   const TempFolder folder;
+  testing_support::writeRoom(folder);
+  ::unsetenv("DISPLAY");
+  ::unsetenv("WAYLAND_DISPLAY");
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{}, {"view"}, {"view", "room.obj"}, {"room.obj"}}) {
     const ProgramResult result = runProgram(folder, arguments);
@@ -70,9 +73,6 @@ TEST(View, SaysHowToSolveWithoutAViewer) {
   }
 }
 
-struct UsageCase {
-  std::vector<std::string> arguments;
-  std::string message;
 TEST(AppRun, RefusesASecondArgument) {
   const TempFolder folder;
   const std::string command =
@@ -84,6 +84,9 @@ TEST(AppRun, RefusesASecondArgument) {
   EXPECT_THAT(folder.read("err"), StartsWith("unshot: 'two' is one argument too many\n  try: "));
 }
 
+struct UsageCase {
+  std::vector<std::string> arguments;
+  std::string message;
 };
 
 void PrintTo(const UsageCase& c, std::ostream* out) { *out << testing::PrintToString(c.arguments); }
@@ -147,6 +150,7 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"solve", "room.obj", "--form-factors", "magic"}, "it is one of auto, hemicube"},
         UsageCase{{"solve", "room.obj", "--display", "magic"}, "it is one of radiosity"},
         UsageCase{{"solve", "room.obj", "--gl", "magic"}, "it is one of auto, osmesa"},
+        UsageCase{{"solve", "room.obj", "--gl", "glfw"}, "'glfw' opens a window: only `unshot view` has one"},
         UsageCase{{"compare", "a", "b", "--tolerance", "-1"}, "--tolerance: -1 is not at least 0"}));
 
 INSTANTIATE_TEST_SUITE_P(
