@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -32,6 +33,7 @@ class ViewArguments {
     ViewerSetup setup;
     setup.scene = scene_.empty() ? std::filesystem::path(UNSHOT_ASSETS_DIR) / "cornell_box.obj"
                                  : std::filesystem::path(scene_);
+    setup.bundled = bundledScenes();
     setup.options = solver_.options();
     setup.settings.view.display = display_;
     if (!script_.empty()) {
@@ -60,6 +62,16 @@ class ViewArguments {
     std::error_code error;
     if (std::filesystem::exists(scene, error)) return;
     throw Error(ErrorKind::kInput, "there is no such file", scene.string(), "the path of an OBJ file");
+  }
+
+  static std::vector<std::filesystem::path> bundledScenes() {
+    std::vector<std::filesystem::path> scenes;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(UNSHOT_ASSETS_DIR, error)) {
+      if (entry.path().extension() == ".obj") scenes.push_back(entry.path());
+    }
+    std::sort(scenes.begin(), scenes.end());
+    return scenes;
   }
 
   SolverArguments solver_;

@@ -101,8 +101,11 @@ void buildOverlays(Viewer& viewer, int scene_width, const std::string& notice, b
   } else if (state.phase == SessionPhase::kEmpty && !viewer.error()) {
     line("empty", "Drop an OBJ scene here", {middle, height / 2}, {0.5f, 0.5f});
   }
-  if (viewer.ui().help) helpWindow(middle);
-  if (viewer.error()) errorWindow(viewer, middle);
+  if (viewer.error()) {
+    errorWindow(viewer, middle);
+  } else if (viewer.ui().help) {
+    helpWindow(middle);
+  }
   if (!notice.empty()) line("notice", notice, {middle, height - size}, {0.5f, 1});
 }
 

@@ -119,6 +119,26 @@ void line(const char* name, const std::string& value, std::string_view tip = {})
 // --- Sections
 // -----------------------------------------------------------------------------------------------------
 
+void chooseScene(Viewer& viewer) {
+  const SessionState& state = viewer.state();
+  const float help_width = ImGui::CalcTextSize("Help").x + 2 * ImGui::GetStyle().FramePadding.x;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - help_width - ImGui::GetStyle().ItemSpacing.x);
+  const std::string shown = state.facts ? state.facts->scene_name : "no scene";
+  if (ImGui::BeginCombo("##scene", shown.c_str(), ImGuiComboFlags_HeightLarge)) {
+    for (const std::filesystem::path& scene : viewer.bundledScenes()) {
+      const bool present = state.facts && state.facts->scene_path == scene;
+      if (ImGui::Selectable(scene.stem().string().c_str(), present)) viewer.perform("open", scene.string());
+    }
+    ImGui::TextDisabled("or drop an OBJ file on the window");
+    ImGui::EndCombo();
+  } else {
+    tooltip(state.facts ? state.facts->scene_path.string() : "Scenes to begin with");
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Help")) viewer.perform("help");
+  tooltip("H: keys and mouse");
+}
+
 void head(Viewer& viewer) {
   const SessionState& state = viewer.state();
   const PhaseLook look = lookOf(state);
@@ -248,11 +268,16 @@ void convergenceSection(Viewer& viewer) {
   PlotStyle style;
   style.x_unit = shots ? "" : "s";
   style.goal = viewer.ui().options.error;
-  style.height = 9.5f * ImGui::GetFontSize();
-  logPlot("##unshot", points, style);
+  style.height = 9 * ImGui::GetFontSize();
+  // On the curve's first line, whose left half is free.
+  const ImVec2 corner = ImGui::GetCursorPos();
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0, 0));
   if (ImGui::RadioButton("Seconds", !shots)) viewer.perform("plot", "seconds");
   ImGui::SameLine();
   if (ImGui::RadioButton("Shots", shots)) viewer.perform("plot", "shots");
+  ImGui::PopStyleVar();
+  ImGui::SetCursorPos(corner);
+  logPlot("##unshot", points, style);
 }
 
 void displaySection(Viewer& viewer) {
@@ -307,11 +332,11 @@ void figuresSection(Viewer& viewer) {
        countText(state.measures.shots) +
            (running ? "  (" + countText(static_cast<std::uint64_t>(rates.shots)) + "/s)" : ""),
        "How often a patch has shot its unshot radiosity");
-  line("Columns",
-       countText(state.measures.rows) +
-           (running ? "  (" + countText(static_cast<std::uint64_t>(rates.columns)) + "/s)" : ""),
-       "Columns of form factors computed; the others were kept from before");
-  if (state.drawn > 0) line("Hemicubes", countText(state.drawn), "Drawn or traced for the columns");
+  std::string columns = countText(state.measures.rows);
+  if (running) columns += "  (" + countText(static_cast<std::uint64_t>(rates.columns)) + "/s)";
+  if (state.drawn > 0) columns += " from " + countText(state.drawn);
+  line(state.drawn > 0 ? "Columns, hemicubes" : "Columns", columns,
+       "Columns of form factors computed, and from how many hemicubes; the others were kept from before");
   line("Patches, elements", countText(facts.patches) + ", " + countText(facts.elements),
        "Patches shoot, elements receive; both count lit sides only");
   line("Time", durationText(state.measures.seconds) + ", CPU " + durationText(state.measures.cpu_seconds),
@@ -369,12 +394,7 @@ void buildSidePanel(Viewer& viewer, int left) {
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoBringToFrontOnFocus);
   // The head stays, what is below scrolls.
-  const SessionState& state = viewer.state();
-  ImGui::TextUnformatted(state.facts ? state.facts->scene_name.c_str() : "Unshot");
-  if (state.facts) tooltip(state.facts->scene_path.string());
-  const char* help = "H: help";
-  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(help).x);
-  ImGui::TextDisabled("%s", help);
+  chooseScene(viewer);
   head(viewer);
   ImGui::Separator();
   ImGui::BeginChild("sections");

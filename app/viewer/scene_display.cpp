@@ -105,6 +105,28 @@ bool SceneDisplay::draw(const Camera& camera, const DisplaySettings& settings, i
     view_.showSamples(exposure_, view, {0, 0, width, height});
   }
   drawn_ = Drawn{camera, settings, width, height, samples};
+  next_band_ = 0;
+  return true;
+}
+
+bool SceneDisplay::sharpen(int samples) {
+  if (!drawn_ || next_band_ >= kBands) return false;
+  const int bottom = height_ * next_band_ / kBands, top = height_ * (next_band_ + 1) / kBands;
+  ++next_band_;
+  if (samples <= drawn_->samples || top == bottom) return true;
+  const StateGuard guard(context_.functions());
+  if (band_.width() != width_ * samples || band_.height() != (top - bottom) * samples) {
+    band_ = LinearTarget();
+    band_ = LinearTarget(context_, width_ * samples, (top - bottom) * samples);
+  }
+  ViewOptions view = drawn_->settings.view;
+  view.supersampling = samples;
+  band_.bind();
+  const FrameWindow window{{0, static_cast<double>(bottom) / height_},
+                           {1, static_cast<double>(top) / height_}};
+  view_.drawLinear(drawn_->camera, static_cast<double>(width_) / height_, window, view);
+  context_.functions().BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
+  view_.resolve(band_, exposure_, view, {0, bottom, width_, top - bottom});
   return true;
 }
 

@@ -40,6 +40,12 @@ class SceneDisplay {
   /// glide of the exposure (negative: no glide). Returns whether anything was drawn.
   bool draw(const Camera& camera, const DisplaySettings& settings, int width, int height, int samples,
             double seconds);
+  /// Once the picture is up to date: draws it again in bands, a band a call, with `samples` along a pixel's
+  /// side, so that a software renderer smooths edges without holding the window up. Returns whether there was
+  /// one to draw.
+  bool sharpen(int samples);
+  /// Whether nothing is left to sharpen.
+  bool sharp() const { return !drawn_ || next_band_ >= kBands; }
   /// Copies the picture to the bound draw framebuffer, its lower left at (x, y).
   void copyTo(int x, int y) const;
 
@@ -50,6 +56,8 @@ class SceneDisplay {
   void snapExposure() { snap_ = true; }
 
  private:
+  static constexpr int kBands = 8;
+
   struct Drawn {
     Camera camera;
     DisplaySettings settings;
@@ -67,6 +75,8 @@ class SceneDisplay {
   gl::Framebuffer framebuffer_;
   int width_ = 0, height_ = 0;
   std::optional<Drawn> drawn_;
+  LinearTarget band_;
+  int next_band_ = 0;
   double exposure_ = 1;
   bool gliding_ = false, snap_ = true;
 };

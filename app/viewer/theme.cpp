@@ -101,8 +101,8 @@ void setColours(ImGuiStyle& style) {
 // In pixels at scale 1.
 void setSizes(ImGuiStyle& style) {
   style.WindowPadding = {12, 11};
-  style.FramePadding = {8, 4};
-  style.ItemSpacing = {8, 6};
+  style.FramePadding = {8, 3};
+  style.ItemSpacing = {8, 5};
   style.ItemInnerSpacing = {7, 5};
   style.CellPadding = {6, 3};
   style.IndentSpacing = 18;

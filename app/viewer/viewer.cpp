@@ -17,8 +17,9 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kFrameSeconds = 1.0 / 60;
 constexpr double kSnapshotSeconds = 1.0 / 30;
 // New light is drawn so seldom that the solver keeps most of a machine whose CPU draws.
-constexpr double kSoftwareShare = 4;  // times the cost of a frame
-constexpr double kRestSeconds = 0.2;  // without motion, before the picture is sharpened
+constexpr double kSoftwareShare = 4;       // times the cost of a frame
+constexpr double kRestSeconds = 0.2;       // without motion, before the picture is sharpened
+constexpr double kLargestSharpened = 0.1;  // cost of a frame [s]: beyond, every band would take too long
 constexpr double kFramingSeconds = 0.01;
 constexpr double kNoticeSeconds = 4;
 constexpr double kRateWindow = 1;
@@ -51,10 +52,6 @@ Viewer::Viewer(ViewerSetup setup)
 }
 
 Viewer::~Viewer() = default;
-
-const gl::ContextInfo* Viewer::solverRenderer() const {
-  return setup_.session.gl ? &setup_.session.gl->info() : nullptr;
-}
 
 void Viewer::setScale(double scale) {
   if (scale == scale_) return;
@@ -257,17 +254,13 @@ double Viewer::nextFrame(double now) const {
     const double share = renderer().hardware ? 1 : kSoftwareShare;
     return std::max(last_frame_ + kSnapshotSeconds, last_frame_end_ + share * frame_cost_);
   }
-  if (!at_rest_drawn_ && idle(state_->phase) && state_->snapshot)
-    return std::max(soon, last_motion_ + kRestSeconds);
+  if (mayBeSharpened(kNever)) return std::max(soon, last_motion_ + kRestSeconds);
   return kNever;
 }
 
-int Viewer::samplesNow(double now, int width, int height) const {
-  const bool rest = idle(state_->phase) && !navigator_.moving() && now >= last_motion_ + kRestSeconds;
-  const bool hardware = renderer().hardware;
-  int samples = rest ? (hardware ? 3 : 2) : (hardware ? 2 : 1);
-  while (samples > 1 && 1.0 * width * height * samples * samples > 1.2e7) --samples;
-  return samples;
+bool Viewer::mayBeSharpened(double now) const {
+  return idle(state_->phase) && !scene_.empty() && !scene_.sharp() && !scene_.framing() &&
+         !navigator_.moving() && frame_cost_ < kLargestSharpened && now >= last_motion_ + kRestSeconds;
 }
 
 void Viewer::navigate(double seconds, int scene_width, int scene_height) {
@@ -303,7 +296,6 @@ void Viewer::navigate(double seconds, int scene_width, int scene_height) {
   const Camera& after = navigator_.camera();
   if (before.eye != after.eye || before.at != after.at) {
     last_motion_ = last_frame_;
-    at_rest_drawn_ = false;
   }
   if (frame_wanted_ && scene_.snapshot() == state_->snapshot && state_->snapshot &&
       (state_->measures.shots > 0 || idle(state_->phase))) {
@@ -316,14 +308,12 @@ void Viewer::navigate(double seconds, int scene_width, int scene_height) {
     navigator_.reset(*camera, {mesh.bounds_min, mesh.bounds_max});
     scene_.snapExposure();
     last_motion_ = last_frame_;
-    at_rest_drawn_ = false;
     input();
   }
 }
 
 void Viewer::takeSnapshot() {
   if (state_->snapshot == scene_.snapshot()) return;
-  at_rest_drawn_ = false;
   try {
     scene_.setSnapshot(state_->snapshot);
   } catch (const Error& error) {  // too large for the driver: the picture before stays
@@ -347,9 +337,10 @@ void Viewer::draw(GLuint framebuffer, int width, int height) {
   drew_scene_ = false;
   // A scene without its camera is not shown: the picture of the one before stays.
   if (!scene_.empty() && !scene_.framing() && framed_scene_ == state_->facts->scene_path) {
-    const int samples = samplesNow(now, scene_width, height);
-    drew_scene_ = scene_.draw(navigator_.camera(), ui_.settings, scene_width, height, samples, seconds);
-    at_rest_drawn_ = at_rest_drawn_ || (now >= last_motion_ + kRestSeconds && idle(state_->phase));
+    const bool hardware = renderer().hardware;
+    drew_scene_ =
+        scene_.draw(navigator_.camera(), ui_.settings, scene_width, height, hardware ? 2 : 1, seconds);
+    if (!drew_scene_ && mayBeSharpened(now)) scene_.sharpen(hardware ? 3 : 2);
   }
   paint(framebuffer, width, height, true);
   // ImGui shows a new window one frame late.

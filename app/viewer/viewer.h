@@ -25,6 +25,7 @@ struct ViewerSetup {
   gl::Context* display = nullptr;  ///< current on the main thread; outlives the viewer
   SessionSetup session;
   std::filesystem::path scene;
+  std::vector<std::filesystem::path> bundled;  ///< scenes that the panel offers
   SolveOptions options;
   DisplaySettings settings;
   std::vector<ScriptLine> script;
@@ -76,7 +77,7 @@ class Viewer {
   /// Size of the GUI: 1 is a font of 15 px.
   void setScale(double scale);
   bool closing() const { return closing_; }
-  bool scriptDone() const { return script_at_ >= script_.size(); }
+  bool scriptDone() const { return script_at_ >= script_.size() && captures_.empty(); }
   /// 0, or the exit code of the first thing that failed in the script or while opening the first scene.
   int exitCode() const { return exit_code_; }
 
@@ -87,7 +88,7 @@ class Viewer {
   ViewerState& ui() { return ui_; }
   const SessionState& state() const { return *state_; }
   const gl::ContextInfo& renderer() const { return setup_.display->info(); }
-  const gl::ContextInfo* solverRenderer() const;
+  const std::vector<std::filesystem::path>& bundledScenes() const { return setup_.bundled; }
   const Camera& camera() const { return navigator_.camera(); }
   double scale() const { return scale_; }
   double exposure() const { return scene_.exposure(); }
@@ -139,7 +140,7 @@ class Viewer {
   bool settled() const;
   void fail(const Error& error);
   void navigate(double seconds, int scene_width, int scene_height);
-  int samplesNow(double now, int width, int height) const;
+  bool mayBeSharpened(double now) const;
   void takeSnapshot();
   void paint(GLuint framebuffer, int width, int height, bool gui);
   void capture(const Capture& wanted, int width, int height, int scene_width);
@@ -163,7 +164,6 @@ class Viewer {
   double last_frame_ = 0, last_frame_end_ = 0, last_motion_ = 0;
   double frame_cost_ = 0;  // of a frame that drew the scene [s]
   bool drew_scene_ = false;
-  bool at_rest_drawn_ = false;
 
   // The scene shown.
   std::filesystem::path framed_scene_;  // the camera is for this one

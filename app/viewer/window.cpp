@@ -94,7 +94,7 @@ int runWindow(ViewerSetup setup, const WindowOptions& wanted) {
     const Glfw glfw;
     fitToScreen(options);
     // The solver's context lives in a window of its own that is never shown.
-    const std::unique_ptr<GlfwContext> solver = GlfwContext::create(16, 16, "unshot solver", false);
+    const std::unique_ptr<GlfwContext> solver = GlfwContext::create(16, 16, "solver", false);
     const std::unique_ptr<GlfwContext> display =
         GlfwContext::create(options.width, options.height, "Unshot", true);
     GLFWwindow* window = display->window();

@@ -149,7 +149,12 @@ void Solve::Impl::measure() {
   measures.seconds = wallSeconds() - solve_start;
   measures.cpu_seconds = cpuSeconds() - cpu_start - cpu_setup;
   measures.rows = transport->computed();
-  if (state->emittedPower() > 0) measures.unshot_fraction = state->unshotPower() / state->emittedPower();
+  const double emitted = state->emittedPower();
+  if (!std::isfinite(emitted)) {
+    measures.unshot_fraction = emitted - emitted;  // not a number, rather than a share of infinity
+  } else if (emitted > 0) {
+    measures.unshot_fraction = state->unshotPower() / emitted;
+  }
   seconds.solve = measures.seconds;
   seconds.cpu_solve = measures.cpu_seconds;
 }

@@ -6,7 +6,7 @@ namespace unshot {
 
 std::span<const IterationModeRow> iterationModes() {
   static const std::array<IterationModeRow, 3> table{{
-      {{"southwell", "Progressive refinement (Southwell)",
+      {{"southwell", "Progressive refinement",
         "the patch with the most unshot power shoots all of it; the first picture soonest"},
        makeSouthwell},
       {{"jacobi", "Bounce by bounce (Jacobi)",

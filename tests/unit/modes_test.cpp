@@ -101,6 +101,31 @@ TEST_P(Mode, GoesOnFromWhereAnotherStopped) {
   }
 }
 
+// Two patches that see each other, in numbers that are exact in binary: as soon as both emitters have shot,
+// H_d is K E to the last bit, whatever mode began and whichever goes on.
+TEST_P(Mode, HasAllDirectLightOnceEveryEmitterHasShot) {
+  TableSystem system = randomSystem(18, 2, 3, false, 0.75);
+  system.emission = {glm::dvec3(1, 2, 0.5), glm::dvec3(4, 0, 8)};
+  system.reflectance.assign(2, glm::dvec3(0.5));
+  for (const IterationModeRow& first : iterationModes()) {
+    for (int before = 0; before <= 3; ++before) {
+      Transport transport = system.transport();
+      RadiosityState state(transport, system.emission, system.reflectance);
+      const auto begun = first.make(), gone_on = GetParam().make();
+      for (int k = 0; k < before; ++k) begun->step(state, transport);
+      for (int k = 0; k < 20; ++k) gone_on->step(state, transport);
+      for (std::size_t v = 0; v < system.k.size(); ++v) {
+        const glm::dvec3 all = system.k[v][0] * system.emission[0] + system.k[v][1] * system.emission[1];
+        EXPECT_EQ(state.direct()[v], all) << first.info.key << " " << before;
+        const glm::dvec3 indirect = system.k[v][0] * (state.shot()[0] - system.emission[0]) +
+                                    system.k[v][1] * (state.shot()[1] - system.emission[1]);
+        for (int c = 0; c < 3; ++c)
+          EXPECT_NEAR(state.direct()[v][c] + indirect[c], state.irradiance()[v][c], 1e-13);
+      }
+    }
+  }
+}
+
 // With U >= 0 at the start, shooting U keeps it so, and S grows towards the solution from below.
 TEST_P(Mode, ApproachesTheSolutionFromBelow) {
   const TableSystem system = randomSystem(13, 20, 3, false, 0.95);

@@ -104,6 +104,38 @@ TEST_P(State, CountsUnshotPowerBelowZeroAsPower) {
   EXPECT_NEAR(run.state.unshotPower(), power, 1e-12 * power);
 }
 
+// H_d = K E and H - H_d = K (S - E), however E is shot: in parts, with more on top, or some of it taken back.
+TEST_P(State, HoldsTheLightStraightFromEmittersApart) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    SolverRun run(seed, GetParam());
+    Dice dice(seed);
+    for (std::uint32_t q = 0; q < 14; ++q) {
+      const glm::dvec3 e = run.system.emission[q];
+      for (const double part : {0.25, -0.5, 0.5, 0.0, 2.0, 1.0}) {
+        run.state.shoot(q, part * e, run.transport.column(q));
+      }
+    }
+    const std::uint64_t shots = run.state.emissionShots();
+    const std::vector<glm::dvec3> direct = run.state.direct();
+    run.shootAtRandom(30, seed);
+    EXPECT_EQ(run.state.emissionShots(), shots);
+    EXPECT_EQ(run.state.direct(), direct);
+    for (int c = 0; c < 3; ++c) {
+      std::vector<double> emission, rest;
+      for (std::size_t q = 0; q < 14; ++q) {
+        emission.push_back(run.system.emission[q][c]);
+        rest.push_back(run.state.shot()[q][c] - emission.back());
+      }
+      const std::vector<double> straight = multiply(run.system.k, emission);
+      const std::vector<double> reflected = multiply(run.system.k, rest);
+      for (std::size_t v = 0; v < straight.size(); ++v) {
+        EXPECT_NEAR(direct[v][c], straight[v], 1e-12);
+        EXPECT_NEAR(run.state.irradiance()[v][c] - direct[v][c], reflected[v], 1e-12);
+      }
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Receivers, State, testing::Bool(),
                          [](const auto& row) { return row.param ? "SharedByPatches" : "OfOnePatch"; });
 

@@ -1,0 +1,260 @@
+// What each command of a session does.
+#include "session/session.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "solver/modes.h"
+#include "threads/session_scenes.h"
+
+namespace unshot {
+namespace {
+
+using namespace testing_support;
+
+TEST(Session, IsEmptyBeforeTheFirstScene) {
+  SessionWatch watch;
+  const StatePointer first = watch->latest();
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->phase, SessionPhase::kEmpty);
+  EXPECT_EQ(first->version, 0u);
+  watch->pause();
+  watch->resume();
+  watch->step(3);
+  const StatePointer idle = watch.carriedOut();
+  EXPECT_EQ(idle->phase, SessionPhase::kEmpty);
+  EXPECT_EQ(idle->problems, 0u);
+  watch->setMode("jacobi");
+  watch->setError(0.1);
+  watch->restart({});
+  const StatePointer state = watch.carriedOut();
+  EXPECT_EQ(state->phase, SessionPhase::kEmpty);
+  EXPECT_EQ(state->problems, 3u);
+  EXPECT_EQ(state->problem.value().kind(), ErrorKind::kUsage);
+  watch.close();
+  checkPublications(watch.seen());
+}
+
+struct PlainCase {
+  const char* scene;
+  std::uint64_t elements;
+  double error;
+};
+
+TEST(Session, ConvergesToWhatAPlainSolveFindsInEveryMode) {
+  const PlainCase cases[] = {
+      {"furnace.obj", 24, 1e-6}, {"two_patches.obj", 60, 1e-6}, {"cornell_box.obj", 150, 1e-3}};
+  for (const PlainCase& c : cases) {
+    for (const IterationModeRow& mode : iterationModes()) {
+      const SolveOptions options = closedForm(c.elements, c.error, std::string(mode.info.key));
+      const auto plain = plainSolve(asset(c.scene), options);
+      SessionWatch watch;
+      watch->open(asset(c.scene), options);
+      const StatePointer state = watch.rested();
+      ASSERT_EQ(state->phase, SessionPhase::kConverged) << c.scene << " " << mode.info.key;
+      EXPECT_EQ(state->stopped_by, "error");
+      EXPECT_EQ(state->facts->mode, mode.info.key);
+      EXPECT_EQ(state->measures.shots, plain->measures().shots);
+      EXPECT_EQ(state->progress, 1);
+      const Snapshot expected = plain->snapshot();
+      EXPECT_LE(relativeDifference(state->snapshot->irradiance, expected.irradiance), 1e-12);
+      EXPECT_LE(relativeDifference(*state->snapshot->direct, *expected.direct), 1e-12);
+      EXPECT_EQ(state->history->size(), plain->history().size());
+      watch.close();
+      checkPublications(watch.seen());
+    }
+  }
+}
+
+TEST(Session, ShowsTheUnlitSceneAtOnceAndSaysWhatItLoads) {
+  SessionWatch watch;
+  watch->open(asset("two_patches.obj"), closedForm(60, 0.01));
+  watch.rested();
+  watch.close();
+  const auto seen = watch.seen();
+  ASSERT_GE(seen.size(), 4u);
+  EXPECT_EQ(seen[0].state->task, "reading two_patches.obj");
+  EXPECT_EQ(seen[1].state->task, "meshing two_patches.obj");
+  EXPECT_EQ(seen[2].state->phase, SessionPhase::kRunning);
+  EXPECT_EQ(seen[2].state->epoch, 1u);
+  EXPECT_EQ(seen[2].state->snapshot->measures.shots, 0u);
+  checkPublications(seen);
+}
+
+TEST(Session, APauseAfterOpenComesBeforeTheFirstShot) {
+  SessionWatch watch;
+  watch->open(asset("cornell_box.obj"), closedForm(150, 1e-3));
+  watch->pause();
+  const StatePointer paused = watch.carriedOut();
+  EXPECT_EQ(paused->phase, SessionPhase::kPaused);
+  EXPECT_EQ(paused->measures.shots, 0u);
+  watch->resume();
+  EXPECT_EQ(watch.rested()->phase, SessionPhase::kConverged);
+  watch->pause();
+  EXPECT_EQ(watch.carriedOut()->phase, SessionPhase::kConverged);
+}
+
+TEST(Session, StepShootsAsManyAsAskedForAndPauses) {
+  SessionWatch watch;
+  watch->open(asset("cornell_box.obj"), endless());
+  watch->pause();
+  std::uint64_t expected = 0;
+  for (const std::uint64_t shots : {1, 0, 3, 17}) {
+    watch->step(shots);
+    expected += shots;
+    const StatePointer state = watch.rested();
+    EXPECT_EQ(state->phase, SessionPhase::kPaused);
+    EXPECT_EQ(state->measures.shots, expected);
+    EXPECT_EQ(state->snapshot->measures.shots, expected);
+  }
+  for (int k = 0; k < 5; ++k) watch->step(2);  // none is lost
+  EXPECT_EQ(watch.rested()->measures.shots, expected + 10);
+  watch.close();
+  checkPublications(watch.seen());
+}
+
+TEST(Session, ClocksStandWhilePaused) {
+  SessionWatch watch;
+  watch->open(asset("cornell_box.obj"), endless());
+  watch->pause();
+  watch->step(4);
+  const double paused_at = watch.rested()->measures.seconds;
+  SessionWatch other;  // takes its time
+  other->open(asset("cornell_box.obj"), closedForm(150, 1e-2));
+  other.rested();
+  const double began = wallSeconds();
+  watch->step(1);
+  const StatePointer after = watch.rested();
+  EXPECT_LE(after->measures.seconds - paused_at, wallSeconds() - began);
+  EXPECT_EQ(after->measures.shots, 5u);
+}
+
+TEST(Session, SwitchesToEveryModeAndKeepsWhatWasShot) {
+  const auto plain = plainSolve(asset("cornell_box.obj"), closedForm(150, 1e-8));
+  const Snapshot expected = plain->snapshot();
+  for (const IterationModeRow& mode : iterationModes()) {
+    SessionWatch watch;
+    watch->open(asset("cornell_box.obj"), closedForm(150, 1e-8));
+    watch->pause();
+    watch->step(9);
+    const StatePointer before = watch.rested();
+    watch->setMode(std::string(mode.info.key));
+    const StatePointer after = watch.carriedOut();
+    EXPECT_EQ(after->facts->mode, mode.info.key);
+    EXPECT_EQ(after->facts->options.mode, mode.info.key);
+    EXPECT_EQ(after->phase, SessionPhase::kPaused);
+    EXPECT_EQ(after->measures.shots, 9u);
+    EXPECT_EQ(after->epoch, before->epoch);
+    EXPECT_EQ(fingerprint(*after->snapshot), fingerprint(*before->snapshot));
+    watch->resume();
+    const StatePointer end = watch.rested();
+    ASSERT_EQ(end->phase, SessionPhase::kConverged);
+    // What is unshot, 1e-8 of the emitted power, may all lie on the smallest patches.
+    EXPECT_LE(relativeDifference(end->snapshot->irradiance, expected.irradiance), 1e-5) << mode.info.key;
+  }
+}
+
+TEST(Session, AnotherErrorRunsOnOrConverges) {
+  SessionWatch watch;
+  watch->open(asset("cornell_box.obj"), closedForm(150, 0.3));
+  EXPECT_EQ(watch.rested()->phase, SessionPhase::kConverged);
+  watch->setError(0.01);
+  const StatePointer finer = watch.rested();
+  EXPECT_EQ(finer->phase, SessionPhase::kConverged);
+  EXPECT_LE(finer->measures.unshot_fraction, 0.01);
+  EXPECT_EQ(finer->facts->options.error, 0.01);
+  watch->setError(0.5);
+  const StatePointer coarser = watch.rested();
+  EXPECT_EQ(coarser->phase, SessionPhase::kConverged);
+  EXPECT_EQ(coarser->measures.shots, finer->measures.shots);
+  watch->setError(1e-300);
+  watch->step(5);
+  const StatePointer more = watch.rested();
+  EXPECT_EQ(more->phase, SessionPhase::kPaused);
+  watch->setError(0.5);
+  EXPECT_EQ(watch.carriedOut()->phase, SessionPhase::kConverged);
+  watch.close();
+  checkPublications(watch.seen());
+}
+
+TEST(Session, AnImpossibleErrorOrModeChangesNothing) {
+  SessionWatch watch;
+  watch->open(asset("two_patches.obj"), closedForm(60, 0.125));
+  EXPECT_EQ(watch.rested()->phase, SessionPhase::kConverged);
+  std::uint64_t problems = 0;
+  for (const double bad : {0.0, 1.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    watch->setError(bad);
+    const StatePointer state = watch.carriedOut();
+    EXPECT_EQ(state->problems, ++problems);
+    EXPECT_EQ(state->problem.value().kind(), ErrorKind::kUsage);
+    EXPECT_EQ(state->phase, SessionPhase::kConverged);
+    EXPECT_EQ(state->facts->options.error, 0.125);
+  }
+  watch->setMode("no such mode");
+  const StatePointer state = watch.carriedOut();
+  EXPECT_EQ(state->problems, ++problems);
+  EXPECT_EQ(state->facts->mode, "southwell");
+}
+
+TEST(Session, StopsAtALimitAndGoesOnOnlyAfterARestart) {
+  SessionWatch watch;
+  SolveOptions options = endless();
+  options.max_shots = 7;
+  watch->open(asset("cornell_box.obj"), options);
+  const StatePointer stopped = watch.rested();
+  EXPECT_EQ(stopped->phase, SessionPhase::kStopped);
+  EXPECT_EQ(stopped->stopped_by, "max_shots");
+  EXPECT_EQ(stopped->snapshot->measures.shots, 7u);
+  watch->resume();
+  watch->step(3);
+  EXPECT_EQ(watch.rested()->measures.shots, 7u);
+  options.max_shots = 9;
+  watch->restart(options);
+  const StatePointer again = watch.rested();
+  EXPECT_EQ(again->epoch, 2u);
+  EXPECT_EQ(again->measures.shots, 9u);
+  watch.close();
+  checkPublications(watch.seen());
+}
+
+TEST(Session, APublicationWaitsForItsInterval) {
+  SessionWatch watch;
+  watch->setPublishInterval(3600);
+  watch->open(asset("cornell_box.obj"), endless());
+  watch->pause();
+  watch.carriedOut();
+  const std::size_t before = watch.seen().size();
+  watch->step(400);
+  EXPECT_EQ(watch.rested()->measures.shots, 400u);
+  EXPECT_EQ(watch.seen().size(), before + 2);  // the command, and the pause
+
+  const double interval = 0.05;
+  watch->setPublishInterval(interval);
+  watch->resume();
+  const std::uint64_t from = watch.carriedOut()->version;
+  watch.wait("twelve more publications", [&](const SessionState& s) { return s.version >= from + 12; });
+  watch.close();
+  const auto seen = watch.seen();
+  // The first of them may follow the command at once. The solve's clock was read at the step before each.
+  const double took = seen[from + 10].state->measures.seconds - seen[from].state->measures.seconds;
+  EXPECT_GE(took, 9 * interval);
+}
+
+TEST(Session, AnIntervalShorterThanTheEyeSeesIsNotTaken) {
+  for (const double silly : {0.0, -1.0, std::nan(""), 1e-9}) {
+    SessionWatch watch;
+    watch->setPublishInterval(silly);
+    watch->open(asset("furnace.obj"), endless(24));
+    const double began = wallSeconds();
+    watch->pause();
+    watch->step(300);
+    watch.rested();
+    const double most = (wallSeconds() - began) * 30 + 8;  // commands, loading, changes of phase
+    EXPECT_LE(static_cast<double>(watch.seen().size()), most);
+  }
+}
+
+}  // namespace
+}  // namespace unshot

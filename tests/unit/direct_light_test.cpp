@@ -1,0 +1,91 @@
+// The picture without indirect light.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "gl/context.h"
+#include "render/scene_view.h"
+#include "support/synthetic_room.h"
+
+namespace unshot {
+namespace {
+
+using testing_support::syntheticRoom;
+
+std::shared_ptr<const std::vector<glm::vec3>> constant(std::size_t count, const glm::vec3& value) {
+  return std::make_shared<const std::vector<glm::vec3>>(count, value);
+}
+
+class DirectLight : public testing::TestWithParam<gl::Provider> {
+ protected:
+  void SetUp() override {
+    context_ = gl::createContext(GetParam().info.key);
+    context_->makeCurrent();
+    std::fill(room_.irradiance.begin(), room_.irradiance.end(), glm::vec3(2, 3, 4));
+    std::fill(room_.element_irradiance.begin(), room_.element_irradiance.end(), glm::vec3(1, 2, 3));
+    std::fill(room_.ambient.begin(), room_.ambient.end(), glm::vec3(0.5f));
+  }
+  // The value in the middle of a picture of the back wall, whose reflectance is 0.75.
+  glm::dvec3 shown(SceneView& view, const std::string& display, bool indirect, bool ambient) {
+    const LinearTarget target(*context_, 32, 24);
+    target.bind();
+    ViewOptions options;
+    options.display = display;
+    options.indirect = indirect;
+    options.ambient = ambient;
+    view.drawLinear({{-0.5, 1, 3}, {-0.5, 1, 0}, {0, 1, 0}, 40}, 4.0 / 3, {}, options, false);
+    EXPECT_EQ(context_->functions().GetError(), GLenum{GL_NO_ERROR});
+    return glm::dvec3(glm::vec3(target.read()[12 * 32 + 16]));
+  }
+  static void expectNear(const glm::dvec3& got, const glm::dvec3& expected, const std::string& what) {
+    EXPECT_LT(glm::length(got - expected), 1e-5) << what << ": " << got.x << " " << got.y << " " << got.z;
+  }
+
+  std::unique_ptr<gl::Context> context_;
+  Snapshot room_ = syntheticRoom();
+};
+
+TEST_P(DirectLight, IsShownAloneWithoutASnapshotMore) {
+  room_.direct = constant(room_.irradiance.size(), {1.5f, 1, 0.5f});
+  room_.element_direct = constant(room_.element_irradiance.size(), {0.75f, 0.5f, 0.25f});
+  SceneView view(*context_);
+  view.setSnapshot(room_);
+  const glm::dvec3 direct(1.5, 1, 0.5);
+  for (int round = 0; round < 2; ++round) {
+    for (const bool ambient : {false, true}) {  // of which direct light has nothing
+      expectNear(shown(view, "radiosity", false, ambient), 0.75 * direct, "radiosity");
+      expectNear(shown(view, "mesh", false, ambient), 0.75 * direct, "mesh");
+      expectNear(shown(view, "irradiance", false, ambient), direct, "irradiance");
+      expectNear(shown(view, "flat", false, ambient), 0.375 * direct, "flat");
+    }
+    expectNear(shown(view, "radiosity", true, false), 0.75 * glm::dvec3(2, 3, 4), "all light");
+    expectNear(shown(view, "radiosity", true, true), 0.75 * glm::dvec3(2.5, 3.5, 4.5), "with ambient");
+    expectNear(shown(view, "flat", true, false), 0.75 * glm::dvec3(1, 2, 3), "flat, all light");
+  }
+}
+
+TEST_P(DirectLight, FollowsTheSnapshotAndIsDarkWhereThereIsNone) {
+  SceneView view(*context_);
+  view.setSnapshot(room_);
+  expectNear(shown(view, "radiosity", false, true), glm::dvec3(0.0), "none");
+  expectNear(shown(view, "flat", false, true), glm::dvec3(0.0), "none per element");
+  for (const float light : {1.0f, 2.0f}) {
+    room_.direct = constant(room_.irradiance.size(), glm::vec3(light));
+    room_.element_direct = constant(room_.element_irradiance.size(), glm::vec3(light));
+    view.setSnapshot(room_);
+    expectNear(shown(view, "irradiance", false, true), glm::dvec3(light), "as given");
+    expectNear(shown(view, "flat", false, true), 0.75 * glm::dvec3(light), "as given per element");
+  }
+  room_.direct = nullptr;
+  room_.element_direct = nullptr;
+  view.setSnapshot(room_);
+  expectNear(shown(view, "irradiance", false, true), glm::dvec3(0.0), "gone");
+}
+
+INSTANTIATE_TEST_SUITE_P(Providers, DirectLight,
+                         testing::ValuesIn(gl::providers().begin(), gl::providers().end()),
+                         [](const auto& row) { return std::string(row.param.info.key); });
+
+}  // namespace
+}  // namespace unshot

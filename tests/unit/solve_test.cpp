@@ -1,0 +1,147 @@
+// The solve as an object: what may be changed while it runs, and the direct light in its snapshots. Form
+// factors in closed form.
+#include "session/solve.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "scene/obj_reader.h"
+#include "session/publish_pace.h"
+#include "solver/modes.h"
+
+namespace unshot {
+namespace {
+
+Scene asset(const char* name) { return readObj(std::filesystem::path(UNSHOT_SOURCE_DIR) / "assets" / name); }
+
+std::unique_ptr<Solve> begin(Scene scene, double error, const std::string& mode = "auto") {
+  SolveOptions options;
+  options.form_factors = "closed-form";
+  options.elements = 120;
+  options.error = error;
+  options.mode = mode;
+  return std::make_unique<Solve>(std::move(scene), options, []() -> gl::Context& {
+    throw Error(ErrorKind::kInternal, "closed forms do not draw");
+  });
+}
+
+void finish(Solve& solve) {
+  while (solve.state() == SolveState::kRunning) solve.step();
+}
+
+TEST(Solve, ValidatesModeAndErrorAndKeepsThemWhereTheyAreBad) {
+  const auto solve = begin(asset("two_patches.obj"), 0.25, "jacobi");
+  EXPECT_THROW(solve->setMode("none"), Error);
+  for (const double bad : {0.0, 1.0, -0.5, std::nan(""), std::numeric_limits<double>::infinity()})
+    EXPECT_THROW(solve->setError(bad), Error);
+  EXPECT_EQ(solve->modeKey(), "jacobi");
+  EXPECT_EQ(solve->options().error, 0.25);
+  solve->setMode("auto");
+  EXPECT_EQ(solve->modeKey(), "southwell");
+  EXPECT_EQ(solve->options().mode, "auto");
+}
+
+TEST(Solve, RunsAgainForASmallerErrorAndEndsForALargerOne) {
+  const auto solve = begin(asset("cornell_box.obj"), 0.3);
+  finish(*solve);
+  ASSERT_EQ(solve->state(), SolveState::kConverged);
+  const Measures first = solve->measures();
+  solve->setError(first.unshot_fraction);
+  EXPECT_EQ(solve->state(), SolveState::kConverged);
+  solve->setError(first.unshot_fraction / 8);
+  EXPECT_EQ(solve->state(), SolveState::kRunning);
+  EXPECT_EQ(solve->stoppedBy(), "");
+  EXPECT_LT(solve->progress(), 1);
+  solve->step();
+  EXPECT_EQ(solve->measures().shots, first.shots + 1);
+  solve->setError(0.9);
+  EXPECT_EQ(solve->state(), SolveState::kConverged);
+  EXPECT_EQ(solve->stoppedBy(), "error");
+  EXPECT_EQ(solve->history().back().measures.shots, first.shots + 1);
+}
+
+TEST(Solve, AnEndedSolveIsNotRevivedByAMode) {
+  const auto solve = begin(asset("two_patches.obj"), 0.1);
+  solve->interrupt();
+  solve->setMode("jacobi");
+  solve->setError(1e-6);
+  solve->step();
+  EXPECT_EQ(solve->state(), SolveState::kInterrupted);
+  EXPECT_EQ(solve->measures().shots, 0u);
+}
+
+TEST(Solve, LightBeyondTheRangeOfNumbersFails) {
+  Scene scene = asset("two_patches.obj");
+  for (Material& m : scene.materials) m.emission *= 1e307;
+  const auto solve = begin(std::move(scene), 0.01);
+  solve->step();
+  EXPECT_EQ(solve->state(), SolveState::kFailed);
+  EXPECT_EQ(solve->progress(), 0);
+}
+
+// What the same scene receives where it is black: H = K E. Both are sums of the same products in double,
+// rounded to float.
+TEST(Solve, DirectLightIsWhatTheBlackSceneReceivesInEveryModeAndAfterSwitches) {
+  for (const char* name : {"two_patches.obj", "furnace.obj", "cornell_box.obj"}) {
+    Scene black = asset(name);
+    for (Material& m : black.materials) m.reflectance = glm::dvec3(0.0);
+    const auto reference = begin(std::move(black), 1e-9);
+    finish(*reference);
+    const Snapshot expected = reference->snapshot();
+    for (const IterationModeRow& mode : iterationModes()) {
+      for (const IterationModeRow& later : iterationModes()) {
+        const auto solve = begin(asset(name), 1e-4, std::string(mode.info.key));
+        for (int k = 0; k < 5; ++k) solve->step();
+        solve->setMode(std::string(later.info.key));
+        finish(*solve);
+        const Snapshot got = solve->snapshot();
+        ASSERT_EQ(got.direct->size(), expected.irradiance.size());
+        for (std::size_t v = 0; v < got.direct->size(); ++v) {
+          for (int c = 0; c < 3; ++c) {
+            const float all = expected.irradiance[v][c];
+            ASSERT_NEAR((*got.direct)[v][c], all, 2e-7f * all) << name << " " << mode.info.key;
+            ASSERT_LE((*got.direct)[v][c], got.irradiance[v][c] * (1 + 2e-7f));
+          }
+        }
+        for (std::size_t e = 0; e < got.element_direct->size(); ++e)
+          ASSERT_NEAR((*got.element_direct)[e].y, expected.element_irradiance[e].y,
+                      2e-7f * expected.element_irradiance[e].y);
+      }
+    }
+  }
+}
+
+TEST(Solve, SnapshotsShareDirectLightThatDoesNotChange) {
+  const auto solve = begin(asset("cornell_box.obj"), 1e-6);
+  const Snapshot unlit = solve->snapshot();
+  for (const glm::vec3& h : *unlit.direct) ASSERT_EQ(h, glm::vec3(0.0f));
+  while (solve->measures().unshot_fraction > 0.3) solve->step();
+  const Snapshot some = solve->snapshot();
+  EXPECT_NE(some.direct, unlit.direct);
+  solve->step();
+  const Snapshot more = solve->snapshot();
+  EXPECT_EQ(more.direct, some.direct);
+  EXPECT_EQ(more.element_direct, some.element_direct);
+  EXPECT_NE(more.irradiance, some.irradiance);
+}
+
+TEST(PublishPace, KeepsTheIntervalAndATenthOfTheTime) {
+  PublishPace pace;
+  EXPECT_TRUE(pace.due(0, PublishPace::kLeastInterval));
+  pace.made(100, 100.001);
+  EXPECT_FALSE(pace.due(100.03, PublishPace::kLeastInterval));
+  EXPECT_TRUE(pace.due(100.035, PublishPace::kLeastInterval));
+  EXPECT_FALSE(pace.due(100.035, 0.5));
+  EXPECT_TRUE(pace.due(100.502, 0.5));
+  pace.made(200, 200.25);
+  EXPECT_FALSE(pace.due(202.7, 0.5));
+  EXPECT_TRUE(pace.due(202.751, 0.5));
+  for (const double silly : {0.0, -1.0, std::nan(""), 1e-9})
+    EXPECT_EQ(PublishPace::interval(silly), PublishPace::kLeastInterval);
+  EXPECT_EQ(PublishPace::interval(2), 2);
+}
+
+}  // namespace
+}  // namespace unshot
