@@ -12,7 +12,7 @@ inline constexpr int kExitInput = 3;
 inline constexpr int kExitEnvironment = 4;
 inline constexpr int kExitNotConverged = 5;   ///< within the limits given; the result is written
 inline constexpr int kExitDifferent = 6;      ///< a comparison exceeded its tolerance
-inline constexpr int kExitInterrupted = 130;  ///< the result is written
+inline constexpr int kExitInterrupted = 130;  ///< what was reached is written
 
 inline int exitCodeOf(ErrorKind kind) {
   switch (kind) {

@@ -3,14 +3,13 @@
 #include <string>
 
 #include "cli/commands.h"
-#include "cli/gl_context.h"
 #include "cli/options.h"
 #include "cli/summary.h"
 #include "cli/text.h"
 #include "exit_codes.h"
 #include "report/report_json.h"
 #include "scene/obj_reader.h"
-#include "session/solve.h"
+#include "session/plan.h"
 
 namespace unshot {
 namespace {
@@ -48,12 +47,11 @@ void printCheck(const Scene& scene, const Diagnostics& diagnostics, const std::v
 
 int runCheck(const CheckRequest& request) {
   const Scene scene = readObj(request.scene);
-  LazyContext context("auto");
-  const Solve solve(scene, SolveOptions{}, [&]() -> gl::Context& { return context.get(); });
+  const Preparation prepared = prepare(scene, SolveOptions{});
   if (request.json) {
-    std::cout << checkJson(scene, solve.diagnostics(), solve.plan());
+    std::cout << checkJson(scene, prepared.diagnostics, prepared.plan);
   } else {
-    printCheck(scene, solve.diagnostics(), solve.plan());
+    printCheck(scene, prepared.diagnostics, prepared.plan);
   }
   return kExitDone;
 }

@@ -34,8 +34,8 @@ constexpr const char* kFooter =
     "unshot COMMAND --help says more. Without a command, the viewer opens.\n"
     "\n"
     "Exit codes: 0 done, 1 internal error, 2 usage, 3 input, 4 environment, 5 not converged\n"
-    "within the limits given, 6 comparison failed, 130 interrupted. After 5 and 130 the\n"
-    "result is written all the same.";
+    "within the limits given, 6 comparison failed, 130 interrupted. After 5 and 130 what\n"
+    "was reached is written all the same.";
 
 std::string commandNames() {
   std::string names;

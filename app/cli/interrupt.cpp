@@ -8,14 +8,22 @@ namespace {
 // A signal handler reaches nothing else.
 volatile std::sig_atomic_t raised_signal = 0;
 
-void raiseFlag(int signal) { raised_signal = signal; }
+// The second signal, of whatever kind, is sent again to the default that ends the program; it arrives when
+// this returns.
+void raiseFlag(int signal) {
+  if (raised_signal != 0) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+  raised_signal = signal;
+}
 
+// SA_RESTART: a write that waits for its reader is not given up at the first signal.
 void setHandler(int signal, bool ours) {
   struct sigaction action {};
   sigemptyset(&action.sa_mask);
   action.sa_handler = ours ? raiseFlag : SIG_DFL;
-  // After the first signal the default is back, so the second one ends the program.
-  action.sa_flags = ours ? static_cast<int>(SA_RESETHAND | SA_RESTART) : 0;
+  action.sa_flags = ours ? SA_RESTART : 0;
   sigaction(signal, &action, nullptr);
 }
 

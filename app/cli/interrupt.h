@@ -1,10 +1,10 @@
-// Ctrl-C while a solve runs: a flag that is looked at between steps.
+// Ctrl-C while a command runs: a flag that is looked at between its phases and steps.
 #pragma once
 
 namespace unshot {
 
-/// While it lives, the first SIGINT, SIGTERM or SIGHUP only raises the flag; the second one of a kind ends
-/// the program. One at a time.
+/// While it lives, the first SIGINT, SIGTERM or SIGHUP only raises the flag; the second one, of whatever
+/// kind, ends the program at once. One at a time.
 class InterruptFlag {
  public:
   InterruptFlag();

@@ -37,6 +37,14 @@ Check numberWithin(double low, double high, const std::string& unit, bool low_ex
 
 Check positiveNumber() { return numberWithin(0, std::numeric_limits<double>::max(), {}, true); }
 
+Check properFraction() {
+  return [](const std::string& text) -> std::string {
+    const std::optional<double> value = parseNumber(text);
+    if (!value) return quoted(text) + " is not a number";
+    return *value > 0 && *value < 1 ? "" : text + " is not above 0 and below 1";
+  };
+}
+
 Check wholeNumber(std::uint64_t low, std::uint64_t high, bool even) {
   return [=](const std::string& text) -> std::string {
     const std::optional<std::uint64_t> value = parseWhole(text);

@@ -27,6 +27,8 @@ using Check = std::function<std::string(const std::string&)>;
 Check numberWithin(double low, double high, const std::string& unit = {}, bool low_excluded = false);
 /// A finite number above 0.
 Check positiveNumber();
+/// A number above 0 and below 1.
+Check properFraction();
 /// A whole number written in digits.
 Check wholeNumber(std::uint64_t low, std::uint64_t high = std::numeric_limits<std::uint64_t>::max(),
                   bool even = false);

@@ -1,8 +1,10 @@
 #include "session/solve.h"
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,7 @@
 #include "cli/summary.h"
 #include "cli/text.h"
 #include "exit_codes.h"
+#include "export/atomic_file.h"
 #include "report/report_json.h"
 #include "scene/obj_reader.h"
 
@@ -23,8 +26,7 @@ namespace unshot {
 namespace {
 
 /// Steps until the solve is over or the user interrupts it.
-void runSteps(Solve& solve, Progress& progress) {
-  const InterruptFlag interrupted;
+void runSteps(Solve& solve, const InterruptFlag& interrupted, Progress& progress) {
   while (solve.state() == SolveState::kRunning) {
     if (interrupted.raised()) {
       solve.interrupt();
@@ -38,11 +40,14 @@ void runSteps(Solve& solve, Progress& progress) {
 }
 
 /// Writes every output. Where one fails, the others are written all the same, and the first Error is
-/// returned.
+/// returned. Pipes and devices come last: they may wait for a reader, and files must not wait for them.
 std::optional<Error> writeOutputs(const SolveRequest& request, const ExportSource& source,
                                   std::vector<std::string>& written) {
+  std::vector<Output> outputs = request.outputs;
+  std::stable_partition(outputs.begin(), outputs.end(),
+                        [](const Output& output) { return !isPipeOrDevice(output.path); });
   std::optional<Error> first;
-  for (const Output& output : request.outputs) {
+  for (const Output& output : outputs) {
     try {
       output.exporter->write(source, output.path);
       written.push_back(output.path.string());
@@ -61,8 +66,19 @@ std::optional<Error> writeOutputs(const SolveRequest& request, const ExportSourc
   return first;
 }
 
-/// The exit code of a solve that has ended, with a word on standard error where it has not converged.
-int concludeSolve(const Solve& solve, const SolveOptions& options) {
+int endBeforeTheSolve() {
+  std::cerr << "unshot: interrupted before the solve began; there is no result to write" << std::endl;
+  return kExitInterrupted;
+}
+
+/// The exit code of a solve that has ended and is written, with a word on standard error where it has not
+/// converged.
+int concludeSolve(const Solve& solve, const SolveOptions& options, const InterruptFlag& interrupted) {
+  if (interrupted.raised() && solve.state() != SolveState::kInterrupted) {
+    std::cerr << "unshot: interrupted after the solve had ended (" << solve.stoppedBy()
+              << "); its result is written" << std::endl;
+    return kExitInterrupted;
+  }
   switch (solve.state()) {
     case SolveState::kConverged:
       return kExitDone;
@@ -78,34 +94,19 @@ int concludeSolve(const Solve& solve, const SolveOptions& options) {
     default:
       break;
   }
-  throw Error(ErrorKind::kInternal, "the solve failed: " + solve.stoppedBy(), solve.scene().path.string(),
-              "another --mode or --form-factors; what was reached is written");
+  const Error& failure = *solve.failure();
+  throw Error(failure.kind(), failure.what(), failure.where(),
+              failure.advice() + "; what was reached is written");
 }
 
-int runSolve(const SolveRequest& request) {
-  checkOutputs(request);
-  useShaderDir(request.shader_dir);
-  std::vector<Probe> probes;
-  if (!request.probe.empty()) probes = readProbes(request.probe);
-  Progress progress(request.options.max_seconds.value_or(0));
-  LazyContext context(request.gl);
-  // A picture needs GL: where there is none, that is said before the solve.
-  if (request.needsPicture()) context.get();
-  progress.phase("reading " + request.scene.string());
-  const double load_began = wallSeconds();
-  Scene scene = readObj(request.scene);
-  const double load_seconds = wallSeconds() - load_began;
-  progress.finish();
-  printDiagnostics(std::cerr, scene.diagnostics);
-  const std::size_t said = scene.diagnostics.size();
-  progress.phase("meshing");
-  Solve solve(std::move(scene), request.options, [&]() -> gl::Context& { return context.get(); });
-  progress.finish();
-  const Diagnostics& all = solve.diagnostics();
-  if (all.size() > said)
-    printDiagnostics(std::cerr, Diagnostics(all.begin() + static_cast<std::ptrdiff_t>(said), all.end()));
-  runSteps(solve, progress);
+/// Diagnostics from number `first` on.
+void printFrom(std::size_t first, const Diagnostics& all) {
+  printDiagnostics(std::cerr, Diagnostics(all.begin() + static_cast<std::ptrdiff_t>(first), all.end()));
+}
 
+/// Writes and says what was reached; returns the exit code.
+int finishSolve(const SolveRequest& request, const Solve& solve, LazyContext& context,
+                std::span<const Probe> probes, double load_seconds, const InterruptFlag& interrupted) {
   const Snapshot snapshot = solve.snapshot();
   const auto record = [&] {
     RunRecord r = recordOf(solve);
@@ -127,15 +128,44 @@ int runSolve(const SolveRequest& request) {
   printSummary(std::cout, record(), request.options, written);
   std::cout.flush();
   if (failure) throw *failure;
-  return concludeSolve(solve, request.options);
+  return concludeSolve(solve, request.options, interrupted);
+}
+
+int runSolve(const SolveRequest& request) {
+  const InterruptFlag interrupted;
+  checkOutputs(request);
+  printDiagnostics(std::cerr, endingNotes(request));
+  useShaderDir(request.shader_dir);
+  std::vector<Probe> probes;
+  if (!request.probe.empty()) probes = readProbes(request.probe);
+  Progress progress(request.options.max_seconds.value_or(0));
+  LazyContext context(request.gl);
+  // A picture needs GL: where there is none, that is said before the solve.
+  if (request.needsPicture()) context.get();
+  progress.phase("reading " + request.scene.string());
+  const double load_began = wallSeconds();
+  Scene scene = readObj(request.scene);
+  const double load_seconds = wallSeconds() - load_began;
+  progress.finish();
+  printDiagnostics(std::cerr, scene.diagnostics);
+  if (interrupted.raised()) return endBeforeTheSolve();
+  const std::size_t said = scene.diagnostics.size();
+  progress.phase("meshing");
+  Solve solve(std::move(scene), request.options, [&]() -> gl::Context& { return context.get(); });
+  progress.finish();
+  if (interrupted.raised()) return endBeforeTheSolve();
+  printFrom(said, solve.diagnostics());
+  runSteps(solve, interrupted, progress);
+  return finishSolve(request, solve, context, probes, load_seconds, interrupted);
 }
 
 }  // namespace
 
 void setUpSolve(Command& command) {
   command.footer(
-      "Lengths are in the scene's unit, taken as metres. Ctrl-C stops between two steps and writes what\n"
-      "was reached; a second one ends the program at once.\n"
+      "Lengths are in the scene's unit, taken as metres. Ctrl-C ends the solve between two steps and\n"
+      "writes what was reached; a second one ends the program at once.\n"
+      "Every file is written in its option's format, whatever its name ends with.\n"
       "\n"
       "Example: unshot solve scene.obj --elements 20000 --png picture.png --report figures.json");
   auto arguments = std::make_shared<SolveArguments>(command);

@@ -1,6 +1,7 @@
 #include "cli/solve_request.h"
 
 #include <algorithm>
+#include <cctype>
 #include <glm/geometric.hpp>
 
 #include "base/error.h"
@@ -125,6 +126,23 @@ void checkOutputs(const SolveRequest& request) {
     }
     checkWritable(output.path);
   }
+}
+
+Diagnostics endingNotes(const SolveRequest& request) {
+  Diagnostics notes;
+  for (const Output& output : request.outputs) {
+    std::string ending = output.path.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (ending.empty() || ending == output.exporter->ending || isPipeOrDevice(output.path)) continue;
+    notes.push_back({Severity::kNote,
+                     "file-ending",
+                     "written as " + std::string(output.exporter->info.title) + " all the same: --" +
+                         std::string(output.exporter->info.key) + " writes nothing else",
+                     output.path.string(),
+                     {}});
+  }
+  return notes;
 }
 
 }  // namespace unshot

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostic.h"
 #include "cli/options.h"
 #include "cli/solver_arguments.h"
 #include "export/exporters.h"
@@ -53,5 +54,8 @@ class SolveArguments {
 /// Finds out before the solve whether every output can be written and none replaces an input or another
 /// output. Throws Error (kUsage, kEnvironment).
 void checkOutputs(const SolveRequest& request);
+
+/// A note for each file whose name ends as if it held something else.
+Diagnostics endingNotes(const SolveRequest& request);
 
 }  // namespace unshot

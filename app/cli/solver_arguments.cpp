@@ -44,12 +44,14 @@ void SolverArguments::addSolver(Command& command, bool with_window) {
   command.add("--seed", options_.seed, "N", "Start of the random numbers (default 1)", wholeNumber(0));
   const auto providers = gl::providers();
   const Check headless = keyOf(providers, true);
-  command.add(
-      "--gl", gl_, "P",
-      "Provider of OpenGL: " + keysOf(providers, true) +
-          (with_window ? ", glfw (default auto: a window; without one, a --script is needed)"
-                       : " (default auto)"),
-      [=](const std::string& key) { return with_window && key == "glfw" ? std::string() : headless(key); });
+  command.add("--gl", gl_, "P",
+              "Provider of OpenGL: " + keysOf(providers, true) +
+                  (with_window ? ", glfw (default auto: a window; without one, a --script is needed)"
+                               : " (default auto)"),
+              [=](const std::string& key) -> std::string {
+                if (key != "glfw") return headless(key);
+                return with_window ? "" : "'glfw' opens a window: only `unshot view` has one";
+              });
   command.add("--shader-dir", shader_dir_, "DIR", "Take shaders from this folder where it has them",
               fileName());
 }
@@ -64,8 +66,8 @@ void SolverArguments::addMesh(Command& command) {
 
 void SolverArguments::addLimits(Command& command) {
   command.group("When to stop");
-  command.add("--error", options_.error, "X", "Stop when this fraction of the power is unshot (default 0.01)",
-              numberWithin(0, 1, {}, true));
+  command.add("--error", options_.error, "X",
+              "Stop when this fraction of the power is unshot, 0 < X < 1 (default 0.01)", properFraction());
   command.add("--max-seconds", options_.max_seconds, "T", "Stop after this time [s] and write the result",
               positiveNumber());
   command.add("--max-shots", options_.max_shots, "N", "Stop after so many shots and write the result",

@@ -41,64 +41,92 @@ std::string adviceFor(int error) {
   fail(path, std::strerror(error), adviceFor(error));
 }
 
-class FileDescriptor {
- public:
-  explicit FileDescriptor(int value) : value_(value) {}
-  ~FileDescriptor() {
-    if (value_ >= 0) ::close(value_);
-  }
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-  int value() const { return value_; }
-  /// 0, or the error: a full disk may show only here.
-  int close() { return ::close(std::exchange(value_, -1)) == 0 ? 0 : errno; }
-
- private:
-  int value_;
+struct Closing {
+  int descriptor;
+  ~Closing() { ::close(descriptor); }
 };
 
-/// Removes its file unless told that the file has been renamed.
+/// A new file in the folder of `target`, without a name where the file system can do that, so that nothing is
+/// left of it however the program ends. Removes it unless it has been put in the target's place.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(const fs::path& target) {
-    // The name must fit where the target's does, so a long one is cut.
-    const std::string stem =
-        "." + target.filename().string().substr(0, 200) + "." + std::to_string(::getpid());
-    for (int attempt = 0;; ++attempt) {
-      path_ = target.parent_path() / (stem + "-" + std::to_string(attempt) + ".tmp");
-      descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-      if (descriptor_ >= 0) return;
-      if (errno != EEXIST || attempt == 99) failWith(target, errno);
+  explicit TemporaryFile(const fs::path& target) : target_(target) {
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    descriptor_ = ::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+    if (descriptor_ >= 0 && ::access(procPath(descriptor_).c_str(), F_OK) == 0) {
+      unnamed_ = true;
+      return;
     }
+    if (descriptor_ >= 0) ::close(descriptor_);
+    takeName([&](const char* name) {
+      descriptor_ = ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      return descriptor_ >= 0;
+    });
   }
   ~TemporaryFile() {
-    if (!path_.empty()) ::unlink(path_.c_str());
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!name_.empty()) ::unlink(name_.c_str());
   }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-  int takeDescriptor() { return std::exchange(descriptor_, -1); }
-  const fs::path& path() const { return path_; }
-  void keep() { path_.clear(); }
+  int descriptor() const { return descriptor_; }
+
+  /// Puts it, synchronised and closed, in the target's place.
+  void replaceTarget() {
+    if (::fsync(descriptor_) != 0 && errno != EINVAL) failWith(target_, errno);
+    if (unnamed_) {
+      const std::string from = procPath(descriptor_);
+      const auto link = [&](const char* name) {
+        return ::linkat(AT_FDCWD, from.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
+      };
+      const bool placed = link(target_.c_str());
+      // A link replaces nothing, so what is there has to be renamed over.
+      if (!placed) takeName(link);
+      closeFile();
+      if (placed) return;
+    } else {
+      closeFile();
+    }
+    if (::rename(name_.c_str(), target_.c_str()) != 0) failWith(target_, errno);
+    name_.clear();
+  }
 
  private:
-  fs::path path_;
-  int descriptor_ = -1;
-};
+  static std::string procPath(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
 
-/// A device or a pipe: neither a file nor a folder.
-bool isSpecial(const fs::path& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
-}
+  /// Finds a name that `make` can give to the file. It must fit where the target's does, so a long one is
+  /// cut.
+  template <class Make>
+  void takeName(const Make& make) {
+    const std::string stem =
+        "." + target_.filename().string().substr(0, 200) + "." + std::to_string(::getpid());
+    for (int attempt = 0;; ++attempt) {
+      const fs::path name = target_.parent_path() / (stem + "-" + std::to_string(attempt) + ".tmp");
+      if (make(name.c_str())) {
+        name_ = name;
+        return;
+      }
+      if (errno != EEXIST || attempt == 99) failWith(target_, errno);
+    }
+  }
+
+  /// A full disk may show only here.
+  void closeFile() {
+    if (::close(std::exchange(descriptor_, -1)) != 0) failWith(target_, errno);
+  }
+
+  fs::path target_, name_;  // name_: empty where it has none
+  int descriptor_ = -1;
+  bool unnamed_ = false;
+};
 
 /// What is to be replaced: the end of a chain of symbolic links. Throws where `path` cannot be a file.
 fs::path resolveTarget(const fs::path& path) {
   if (path.empty()) fail("''", "the name is empty", "a file name");
   std::error_code error;
   // Links such as /dev/stdout lead to what has no path of its own.
-  if (isSpecial(path)) return path;
+  if (isPipeOrDevice(path)) return path;
   fs::path target = path;
   for (int depth = 0; fs::is_symlink(fs::symlink_status(target, error)); ++depth) {
     if (depth == 40) failWith(path, ELOOP);
@@ -116,9 +144,9 @@ fs::path resolveTarget(const fs::path& path) {
   return target;
 }
 
-void writeAll(const FileDescriptor& file, std::string_view bytes, const fs::path& path) {
+void writeAll(int file, std::string_view bytes, const fs::path& path) {
   while (!bytes.empty()) {
-    const ssize_t written = ::write(file.value(), bytes.data(), bytes.size());
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
     if (written < 0) {
       if (errno == EINTR) continue;
       failWith(path, errno);
@@ -129,15 +157,20 @@ void writeAll(const FileDescriptor& file, std::string_view bytes, const fs::path
 
 }  // namespace
 
+bool isPipeOrDevice(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
 void checkWritable(const fs::path& path) {
   const fs::path target = resolveTarget(path);
-  if (isSpecial(target)) {
+  if (isPipeOrDevice(target)) {
     if (::access(target.c_str(), W_OK) != 0) failWith(path, errno);
     return;
   }
   try {
-    TemporaryFile temporary(target);
-    const FileDescriptor closed_at_once(temporary.takeDescriptor());
+    const TemporaryFile removed_at_once(target);
   } catch (const Error& error) {
     throw Error(error.kind(), error.what(), path.string(), error.advice());
   }
@@ -145,23 +178,20 @@ void checkWritable(const fs::path& path) {
 
 void writeWholeFile(const fs::path& path, std::string_view bytes) {
   const fs::path target = resolveTarget(path);
-  if (isSpecial(target)) {
-    FileDescriptor file(::open(target.c_str(), O_WRONLY | O_CLOEXEC));
-    if (file.value() < 0) failWith(path, errno);
+  if (isPipeOrDevice(target)) {
+    const int file = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file < 0) failWith(path, errno);
+    const Closing closing{file};
     writeAll(file, bytes, path);
     return;
   }
   TemporaryFile temporary(target);
-  FileDescriptor file(temporary.takeDescriptor());
   struct stat before {};
-  if (::stat(target.c_str(), &before) == 0 && ::fchmod(file.value(), before.st_mode & 07777) != 0) {
+  if (::stat(target.c_str(), &before) == 0 && ::fchmod(temporary.descriptor(), before.st_mode & 07777) != 0) {
     failWith(path, errno);
   }
-  writeAll(file, bytes, path);
-  if (::fsync(file.value()) != 0 && errno != EINVAL) failWith(path, errno);
-  if (const int error = file.close()) failWith(path, error);
-  if (::rename(temporary.path().c_str(), target.c_str()) != 0) failWith(path, errno);
-  temporary.keep();
+  writeAll(temporary.descriptor(), bytes, path);
+  temporary.replaceTarget();
 }
 
 }  // namespace unshot

@@ -1,4 +1,5 @@
-// Files that are replaced only by whole ones: written under a temporary name beside the target, then renamed.
+// Files that are replaced only by whole ones: written without a name or under a temporary one beside the
+// target, then put in its place.
 #pragma once
 
 #include <filesystem>
@@ -11,9 +12,13 @@ namespace unshot {
 /// path.
 void checkWritable(const std::filesystem::path& path);
 
+/// Whether `path` is there and is neither a file nor a folder, so that writing may wait for a reader.
+bool isPipeOrDevice(const std::filesystem::path& path);
+
 /// Makes `bytes` the content of `path`. A file that is there keeps its permissions, and keeps its content
 /// where this fails; what a symbolic link names is replaced, not the link; a device or pipe is written to
-/// directly. Throws Error (kEnvironment) and leaves no temporary file.
+/// directly. Throws Error (kEnvironment) and leaves no temporary file. Where the file system knows files
+/// without a name (Linux's usual ones do), a program that ends while it writes leaves none behind either.
 void writeWholeFile(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace unshot

@@ -23,9 +23,11 @@ struct Target {
 
   void add(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     corners.insert(corners.end(), {a, b, c});
-    const glm::vec3 normal = glm::cross(positions[b] - positions[a], positions[c] - positions[a]);
-    const float length = glm::length(normal);
-    normals.push_back(length > 0 ? normal / length : glm::vec3(0.0f));
+    const glm::dvec3 origin(positions[a]);
+    const glm::dvec3 normal =
+        glm::cross(glm::dvec3(positions[b]) - origin, glm::dvec3(positions[c]) - origin);
+    const double length = glm::length(normal);
+    normals.emplace_back(length > 0 ? normal / length : glm::dvec3(0.0));
   }
 };
 

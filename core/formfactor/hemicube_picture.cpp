@@ -58,6 +58,8 @@ HemicubePicture::HemicubePicture(gl::Context& context, const Mesh& mesh)
       vertex_array_(context),
       vertices_(context) {
   far_ = 2 * glm::length(mesh.bounds_max - mesh.bounds_min);
+  // A power of two rounds nothing.
+  scale_ = std::isnormal(far_) ? std::ldexp(1.0, -std::ilogb(far_)) : 1;
   upload(mesh);
 }
 
@@ -72,11 +74,11 @@ void HemicubePicture::upload(const Mesh& mesh) {
         clusters_.push_back(
             {static_cast<std::uint32_t>(vertices.size()), 0, glm::dvec3(INFINITY), glm::dvec3(-INFINITY)});
       }
-      const glm::dmat3 heights = outlineHeights(triangle, far_);
+      const glm::dmat3 heights = scale_ * outlineHeights(triangle, far_);
       for (int k = 0; k < 3; ++k) {
         const glm::dvec3& p = mesh.positions[triangle.position[k]];
         vertices.push_back(
-            {glm::vec3(p), glm::vec2(triangle.uv[k] / surface.extent), s, glm::vec3(heights[k])});
+            {glm::vec3(scale_ * p), glm::vec2(triangle.uv[k] / surface.extent), s, glm::vec3(heights[k])});
         clusters_.back().low = glm::min(clusters_.back().low, p);
         clusters_.back().high = glm::max(clusters_.back().high, p);
         ++clusters_.back().count;
@@ -139,11 +141,11 @@ HemicubeView::Result HemicubePicture::look(const HemicubeFrame& frame, HemicubeL
   fn.ClearBufferfv(GL_DEPTH, 0, &farthest);
   program_.use();
   fn.BindVertexArray(vertex_array_.id());
-  const glm::vec3 eye(frame.eye);
+  const glm::vec3 eye(scale_ * frame.eye);
   fn.Uniform3f(program_.uniform("eye"), eye.x, eye.y, eye.z);
   fn.Uniform1ui(program_.uniform("own_surface"), frame.own_surface);
-  fn.Uniform1f(program_.uniform("inverse_far"), static_cast<float>(1 / far_));
-  fn.Uniform1f(program_.uniform("tie_margin"), static_cast<float>(kTieMargin * far_));
+  fn.Uniform1f(program_.uniform("inverse_far"), static_cast<float>(1 / (scale_ * far_)));
+  fn.Uniform1f(program_.uniform("tie_margin"), static_cast<float>(kTieMargin * scale_ * far_));
 
   const HemicubeFaces faces(frame);
   for (std::uint32_t face = 0; face < 5; ++face) {
@@ -167,8 +169,8 @@ HemicubeView::Result HemicubePicture::look(const HemicubeFrame& frame, HemicubeL
 void HemicubePicture::drawFace(const HemicubeFrame& frame, const glm::dvec3& forward, const glm::dvec3& up,
                                bool top) {
   const gl::Functions& fn = context_.functions();
-  const double near = frame.near_distance;
-  const glm::dmat4 projection = glm::frustum(-near, near, top ? -near : 0.0, near, near, far_);
+  const double near = scale_ * frame.near_distance;
+  const glm::dmat4 projection = glm::frustum(-near, near, top ? -near : 0.0, near, near, scale_ * far_);
   const glm::dmat4 view = glm::lookAt(glm::dvec3(0.0), forward, up);
   const glm::mat4 matrix(projection * view);
   fn.UniformMatrix4fv(program_.uniform("view_projection"), 1, GL_FALSE, glm::value_ptr(matrix));

@@ -42,7 +42,8 @@ class HemicubePicture final : public HemicubeView {
   std::vector<Cluster> clusters_;
   std::vector<GLint> first_;
   std::vector<GLsizei> count_;
-  double far_ = 1;
+  double far_ = 1;    // [m]
+  double scale_ = 1;  // of all that GL sees: the products of its clipping must stay in single precision
   std::vector<Item> items_;
   std::vector<float> distance_;
 };

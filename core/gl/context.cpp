@@ -89,7 +89,8 @@ std::span<const Provider> providers() {
 std::unique_ptr<Context> createContext(std::string_view key, std::span<const Provider> table) {
   if (key == "auto") return createAutomatic(table);
   if (key == "glfw") {
-    throw Error(ErrorKind::kUsage, "the GL provider 'glfw' is there only in the viewer", {}, "--gl auto");
+    throw Error(ErrorKind::kUsage, "the GL provider 'glfw' opens a window: only `unshot view` has one", {},
+                "--gl auto");
   }
   const Provider& row = findChoice(table, key, "GL provider");
   try {

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/point_tree.h"
+#include "base/text.h"
 #include "mesh/contacts.h"
 #include "mesh/display.h"
 #include "mesh/grid.h"
@@ -14,6 +15,8 @@
 
 namespace unshot {
 namespace {
+
+constexpr double kSmallestScene = 1e-30, kLargestScene = 1e30;  // [m]
 
 // Patches are squares of so many cells that there are about a thousand of them: each then is a tenth of a
 // room or less, below which smaller sources bring no accuracy, while a pass over all of them stays short.
@@ -191,6 +194,19 @@ void numberElements(Mesh& mesh) {
   }
 }
 
+// Vertices, areas of elements and what is made of them are written in single precision, which ends near 1e38
+// and 1e-38.
+void sayExtremeSize(Mesh& mesh, const Scene& scene) {
+  const double size = glm::length(mesh.bounds_max - mesh.bounds_min);
+  if (size > kSmallestScene && size < kLargestScene) return;
+  mesh.diagnostics.push_back(
+      {Severity::kWarning, "extreme-size",
+       "the scene measures " + figureText(size) +
+           " m across, beyond what single precision holds: solution and files are not to "
+           "be relied on",
+       scene.path.string(), "another unit of length"});
+}
+
 }  // namespace
 
 Mesh buildMesh(const Scene& scene, const MeshOptions& options) {
@@ -211,6 +227,7 @@ Mesh buildMesh(const Scene& scene, const MeshOptions& options) {
     throw Error(ErrorKind::kInput, "no face of the scene has any area", scene.path.string(),
                 "unshot check on the scene");
   }
+  sayExtremeSize(mesh, scene);
   makeSides(scene, options, mesh);
   const double tolerance = weldDistance(scene);
   const Contacts contacts = findContacts(mesh, topology.edges, 2 * tolerance);

@@ -215,6 +215,7 @@ class DisplayMaker {
 
   void makeTriangles() {
     std::vector<glm::dvec2> outline;
+    std::vector<glm::dvec3> normals(mesh_.vertices.size(), glm::dvec3(0.0));  // areas overflow floats
     for (std::uint32_t p = 0; p < mesh_.pieces.size(); ++p) {
       const Surface& surface = mesh_.surfaces[piece_surface_[p]];
       outline.clear();
@@ -230,15 +231,16 @@ class DisplayMaker {
           for (const std::uint32_t k : t) {
             const std::uint32_t vertex = vertex_[2 * (ring_start_[p] + k) + back];
             mesh_.triangle_vertices.push_back(vertex);
-            mesh_.vertices[vertex].normal += glm::vec3(mesh_.sides[side].normal * mesh_.pieces[p].area);
+            normals[vertex] += mesh_.pieces[p].area * mesh_.sides[side].normal;
           }
           mesh_.triangle_element.push_back(mesh_.sides[side].first_element + mesh_.pieces[p].element);
         }
       }
     }
-    for (Vertex& v : mesh_.vertices) {
-      const float length = glm::length(v.normal);
-      v.normal = length > 0 ? v.normal / length : glm::vec3(mesh_.sides[v.side].normal);
+    for (std::size_t k = 0; k < normals.size(); ++k) {
+      Vertex& v = mesh_.vertices[k];
+      const double length = glm::length(normals[k]);
+      v.normal = glm::vec3(length > 0 ? normals[k] / length : mesh_.sides[v.side].normal);
     }
   }
 
@@ -262,7 +264,7 @@ class DisplayMaker {
       const Surface& surface = mesh_.surfaces[piece_surface_[p]];
       const glm::dvec3 centre = mesh_.shapes[surface.elements.first + mesh_.pieces[p].element].centre;
       for (std::uint32_t k = ring_start_[p]; k < ring_start_[p + 1]; ++k) {
-        const double distance = std::max(glm::distance(centre, points_[ring_[k].point]), 1e-30);
+        const double distance = std::max(glm::distance(centre, points_[ring_[k].point]), 1e-6 * distance_);
         for (std::uint32_t back = 0; back < 2; ++back) {
           const std::uint32_t side = surface.side[back], vertex = vertex_[2 * k + back];
           if (side == kNone || !real[vertex]) continue;
@@ -270,7 +272,7 @@ class DisplayMaker {
           auto& row = rows[vertex];
           const bool known =
               std::any_of(row.begin(), row.end(), [&](const Entry& e) { return e.element == element; });
-          if (!known) row.push_back({element, static_cast<float>(1 / distance)});
+          if (!known) row.push_back({element, static_cast<float>(distance_ / distance)});
         }
       }
     }

@@ -6,10 +6,12 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "rays/unit_scale.h"
 
 namespace unshot {
 
 struct FirstHits::Impl {
+  float scale = 1;  // of what Embree sees
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
 
@@ -35,7 +37,9 @@ FirstHits::FirstHits(std::span<const glm::vec3> positions, std::span<const std::
     rtcReleaseGeometry(geometry);
     throw Error(ErrorKind::kEnvironment, "there is no memory for rays against the scene");
   }
-  std::copy(positions.begin(), positions.end(), vertices);
+  impl_->scale = unitScale(positions);
+  std::transform(positions.begin(), positions.end(), vertices,
+                 [&](const glm::vec3& p) { return impl_->scale * p; });
   std::copy(corners.begin(), corners.end(), indices);
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(impl_->scene, geometry);
@@ -49,6 +53,7 @@ FirstHits::~FirstHits() = default;
 void FirstHits::trace(const glm::vec3& origin, float near_distance, std::span<const glm::vec3> directions,
                       std::span<Hit> hits) const {
   constexpr std::size_t kPacket = 16;
+  const glm::vec3 from = impl_->scale * origin;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
@@ -59,13 +64,13 @@ void FirstHits::trace(const glm::vec3& origin, float near_distance, std::span<co
     for (std::size_t k = 0; k < kPacket; ++k) {
       valid[k] = k < count ? -1 : 0;
       const glm::vec3 d = directions[first + std::min(k, count - 1)];
-      rays.ray.org_x[k] = origin.x;
-      rays.ray.org_y[k] = origin.y;
-      rays.ray.org_z[k] = origin.z;
+      rays.ray.org_x[k] = from.x;
+      rays.ray.org_y[k] = from.y;
+      rays.ray.org_z[k] = from.z;
       rays.ray.dir_x[k] = d.x;
       rays.ray.dir_y[k] = d.y;
       rays.ray.dir_z[k] = d.z;
-      rays.ray.tnear[k] = near_distance;
+      rays.ray.tnear[k] = impl_->scale * near_distance;
       rays.ray.tfar[k] = INFINITY;
       rays.ray.time[k] = 0;
       rays.ray.mask[k] = ~0u;
@@ -76,7 +81,7 @@ void FirstHits::trace(const glm::vec3& origin, float near_distance, std::span<co
     }
     rtcIntersect16(valid, impl_->scene, &context, &rays);
     for (std::size_t k = 0; k < count; ++k) {
-      hits[first + k] = {rays.ray.tfar[k],
+      hits[first + k] = {rays.ray.tfar[k] / impl_->scale,
                          rays.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID ? 0xffffffffu : rays.hit.primID[k],
                          rays.hit.u[k], rays.hit.v[k]};
     }

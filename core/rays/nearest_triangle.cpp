@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "rays/unit_scale.h"
 
 namespace unshot {
 namespace {
@@ -42,7 +43,8 @@ glm::vec3 nearestWeights(const glm::vec3& p, const glm::vec3& a, const glm::vec3
 }  // namespace
 
 struct NearestTriangle::Impl {
-  std::vector<glm::vec3> positions;
+  float scale = 1;
+  std::vector<glm::vec3> positions;  // scaled
   std::vector<std::uint32_t> corners;
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
@@ -86,7 +88,8 @@ bool visitTriangle(RTCPointQueryFunctionArguments* arguments) {
 
 NearestTriangle::NearestTriangle(std::span<const glm::vec3> positions, std::span<const std::uint32_t> corners)
     : impl_(std::make_unique<Impl>()) {
-  impl_->positions.assign(positions.begin(), positions.end());
+  impl_->scale = unitScale(positions);
+  for (const glm::vec3& p : positions) impl_->positions.push_back(impl_->scale * p);
   impl_->corners.assign(corners.begin(), corners.end());
   impl_->device = rtcNewDevice("threads=1");
   if (!impl_->device) throw Error(ErrorKind::kEnvironment, "Embree could not start", {}, "free some memory");
@@ -99,7 +102,8 @@ NearestTriangle::NearestTriangle(std::span<const glm::vec3> positions, std::span
                                              sizeof(glm::vec3), positions.size());
     void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                             3 * sizeof(std::uint32_t), triangles);
-    if (vertices) std::copy(positions.begin(), positions.end(), static_cast<glm::vec3*>(vertices));
+    if (vertices)
+      std::copy(impl_->positions.begin(), impl_->positions.end(), static_cast<glm::vec3*>(vertices));
     if (indices) std::copy_n(corners.begin(), 3 * triangles, static_cast<std::uint32_t*>(indices));
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(impl_->scene, geometry);
@@ -116,15 +120,17 @@ NearestTriangle::~NearestTriangle() = default;
 
 std::optional<NearestTriangle::Hit> NearestTriangle::find(
     const glm::vec3& point, float radius, const std::function<bool(std::uint32_t)>& accept) const {
-  Query query{impl_->positions, impl_->corners, &accept, point, std::nullopt};
+  const glm::vec3 centre = impl_->scale * point;
+  Query query{impl_->positions, impl_->corners, &accept, centre, std::nullopt};
   RTCPointQuery sphere{};
-  sphere.x = point.x;
-  sphere.y = point.y;
-  sphere.z = point.z;
-  sphere.radius = radius;
+  sphere.x = centre.x;
+  sphere.y = centre.y;
+  sphere.z = centre.z;
+  sphere.radius = impl_->scale * radius;
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   rtcPointQuery(impl_->scene, &sphere, &context, visitTriangle, &query);
+  if (query.best) query.best->distance /= impl_->scale;
   return query.best;
 }
 

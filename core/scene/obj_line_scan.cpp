@@ -5,6 +5,8 @@
 #include <charconv>
 #include <limits>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "scene/scene.h"
@@ -13,10 +15,9 @@ namespace unshot {
 namespace {
 
 /// Statements of the format that say nothing about the faces' geometry or light.
-constexpr std::array<std::string_view, 21> kPassedOver{
-    "g",         "o",      "vt",  "vp",    "mg",       "vw",       "t",
-    "usemap",    "maplib", "lod", "bevel", "c_interp", "d_interp", "shadow_obj",
-    "trace_obj", "call",   "csh", "ctech", "stech",    "matlib",   "xref"};
+constexpr std::array<std::string_view, 20> kPassedOver{
+    "g",        "o",        "vp",         "mg",        "vw",   "t",   "usemap", "maplib", "lod",    "bevel",
+    "c_interp", "d_interp", "shadow_obj", "trace_obj", "call", "csh", "ctech",  "stech",  "matlib", "xref"};
 
 constexpr std::array<std::string_view, 20> kFreeForm{"curv", "curv2", "surf", "cstype", "deg", "bmat", "step",
                                                      "parm", "trim",  "hole", "scrv",   "sp",  "end",  "con",
@@ -45,6 +46,10 @@ class Scanner {
                   "open a Wavefront OBJ file; other formats have to be converted first");
     }
     if (scan_.faces.empty()) refuseWithoutFaces();
+    for (const auto& [index, face_line] : texture_ahead_) {
+      if (index > texture_count_) scan_.lost_texture.add(face_line);
+    }
+    scan_.texture_count = texture_count_;
     return std::move(scan_);
   }
 
@@ -88,6 +93,8 @@ class Scanner {
       face(rest);
     } else if (keyword == "vn") {
       normal(rest);
+    } else if (keyword == "vt") {
+      ++texture_count_;
     } else if (keyword == "usemtl") {
       useMaterial(trimmed(rest));
     } else if (keyword == "s") {
@@ -161,7 +168,7 @@ class Scanner {
   }
 
   /// v, v/t, v//n, v/t/n; empty texture and normal parts are let pass. Texture coordinates are not used, so
-  /// their indices are not held against their number.
+  /// an index that leads nowhere is only counted.
   void corner(std::string_view word) {
     const std::size_t first = word.find('/');
     const std::string_view vertex = word.substr(0, first);
@@ -169,11 +176,25 @@ class Scanner {
     scan_.plain.append(1, ' ').append(vertex);
     if (first == std::string_view::npos) return;
     const std::size_t second = word.find('/', first + 1);
+    texture(word.substr(first + 1, second == std::string_view::npos ? second : second - first - 1));
     if (second == std::string_view::npos) return;
     const std::string_view normal = word.substr(second + 1);
     if (normal.empty()) return;
     checkIndex(normal, word, scan_.normal_count, "normal", "normals");
     scan_.plain.append("//").append(normal);
+  }
+
+  void texture(std::string_view digits) {
+    if (digits.empty()) return;
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    std::int64_t value = 0;
+    const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    const bool number = failure == std::errc() && end == digits.data() + digits.size();
+    if (!number || value == 0 || value < -static_cast<std::int64_t>(texture_count_)) {
+      scan_.lost_texture.add(line_);
+    } else if (value > static_cast<std::int64_t>(texture_count_)) {
+      texture_ahead_.emplace_back(static_cast<std::size_t>(value), line_);
+    }
   }
 
   void checkIndex(std::string_view digits, std::string_view word, std::size_t count, std::string_view one,
@@ -193,7 +214,8 @@ class Scanner {
       fail(quoted + " is not a corner of a face", "corners are written v, v/vt, v//vn or v/vt/vn");
     }
     if (failure == std::errc::result_out_of_range || value > kLargest || value < -kLargest) {
-      fail(index + std::string(digits.substr(0, 40)) + " is beyond 32 bits" + so_far,
+      fail(index + std::string(digits.substr(0, 40)) + " is beyond the largest that can be, " +
+               std::to_string(kLargest) + so_far,
            "export the scene again");
     }
     if (value == 0) fail(index + "0 in " + quoted + ": OBJ counts from 1" + so_far, "export the scene again");
@@ -223,6 +245,8 @@ class Scanner {
   std::size_t statements_ = 0;
   std::uint32_t material_ = kNone;
   std::uint32_t smoothing_ = 0;
+  std::size_t texture_count_ = 0;
+  std::vector<std::pair<std::size_t, std::uint32_t>> texture_ahead_;  // index and line: not there so far
   std::unordered_map<std::string, std::uint32_t> material_index_;
 };
 

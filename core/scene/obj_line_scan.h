@@ -34,7 +34,9 @@ struct ObjScan {
   std::vector<ObjName> libraries;  ///< what follows each mtllib, uncut
   std::size_t vertex_count = 0;
   std::size_t normal_count = 0;
+  std::size_t texture_count = 0;
   bool smoothing_given = false;
+  Tally lost_texture;  ///< corners whose texture index leads nowhere
   Tally lines_and_points;
   Tally free_form;
   Tally unknown;
@@ -42,7 +44,7 @@ struct ObjScan {
 };
 
 /// Throws Error (kInput, with file:line) for a binary text, a text without OBJ statements or without faces, a
-/// vertex without three numbers, an index that is 0, no number, beyond 32 bits or before the first vertex.
+/// vertex without three numbers, an index that is 0, no number, beyond 2^31 - 1 or before the first vertex.
 /// Positive indices beyond the last vertex are left to the caller: a face may stand before its vertices.
 ObjScan scanObj(std::string_view text, const std::filesystem::path& path);
 

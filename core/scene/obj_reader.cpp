@@ -88,6 +88,13 @@ void reportStatements(const ObjScan& scan, Scene& scene) {
          counted(t.count, "free-form statement", "free-form statements") + " read past", place(t),
          "convert curves and surfaces to polygons"});
   }
+  if (const Tally& t = scan.lost_texture; t.count > 0) {
+    scene.diagnostics.push_back(
+        {Severity::kWarning, "texture-index",
+         counted(t.count, "corner", "corners") + " with a texture index that leads nowhere (there are " +
+             counted(scan.texture_count, "texture coordinate", "texture coordinates") + "); it is not needed",
+         place(t), "export the scene again if its textures matter elsewhere"});
+  }
   if (const Tally& t = scan.unknown; t.count > 0) {
     scene.diagnostics.push_back(
         {Severity::kWarning, "unknown-statement",
@@ -101,7 +108,7 @@ void reportNoLight(Scene& scene) {
                                [&](const Polygon& p) { return scene.materials[p.material].emits(); });
   if (lit) return;
   scene.diagnostics.push_back({Severity::kWarning, "no-light", "no face emits light: the scene is dark",
-                               scene.path.string(), "give a material a Ke, or light the scene with a sky"});
+                               scene.path.string(), "give a material of the MTL file a Ke"});
 }
 
 }  // namespace

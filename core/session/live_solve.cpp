@@ -187,8 +187,7 @@ void LiveSolve::settle() {
   if (phase() != SessionPhase::kPaused) steps_left_ = 0;
   if (!broken_ && !failure_noted_ && solve_->state() == SolveState::kFailed) {
     failure_noted_ = true;
-    note(Error(ErrorKind::kInternal, "the solve failed: " + solve_->stoppedBy(),
-               solve_->scene().path.string(), "another iteration mode, or other form factors"));
+    note(*solve_->failure());
   }
 }
 

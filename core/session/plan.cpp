@@ -1,6 +1,8 @@
 #include "session/plan.h"
 
+#include "base/clock.h"
 #include "formfactor/methods.h"
+#include "mesh/build.h"
 
 namespace unshot {
 
@@ -36,6 +38,28 @@ std::vector<PlanDecision> makePlan(const Scene& scene, const Mesh& mesh, const s
         {"shots from " + std::to_string(black) + " of " + std::to_string(mesh.patch_count) + " patches",
          "they are black and send nothing", "their columns"});
   }
+  return out;
+}
+
+Preparation prepare(const Scene& scene, const SolveOptions& options) {
+  Preparation out;
+  const double mesh_began = wallSeconds();
+  out.mesh = std::make_shared<const Mesh>(
+      buildMesh(scene, {options.elements, options.element_size, options.emit_front_only}));
+  const double plan_began = wallSeconds();
+  out.form_factors = options.form_factors;
+  if (out.form_factors == "auto")
+    out.form_factors = nothingCanOcclude(*out.mesh) ? "closed-form" : "hemicube";
+  out.plan = makePlan(scene, *out.mesh, out.form_factors);
+  out.diagnostics = scene.diagnostics;
+  out.diagnostics.insert(out.diagnostics.end(), out.mesh->diagnostics.begin(), out.mesh->diagnostics.end());
+  const FormFactorMethodRow& row = findChoice(formFactorMethods(), out.form_factors, "form-factor method");
+  const std::string unsuited = row.unsuited(*out.mesh);
+  if (!unsuited.empty()) {
+    out.diagnostics.push_back({Severity::kWarning, "unsuited-method", unsuited, {}, "--form-factors auto"});
+  }
+  out.mesh_seconds = plan_began - mesh_began;
+  out.plan_seconds = wallSeconds() - plan_began;
   return out;
 }
 

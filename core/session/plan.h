@@ -1,6 +1,9 @@
-// What a solve leaves out because this scene does not need it (law 7), decided in one place.
+// What stands before the first shot and needs no OpenGL: the mesh, and the plan, which decides in one place
+// what a solve leaves out because this scene does not need it (law 7).
 #pragma once
 
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -10,5 +13,17 @@ namespace unshot {
 
 /// The decisions that hold for the scene and its mesh with this form-factor method.
 std::vector<PlanDecision> makePlan(const Scene& scene, const Mesh& mesh, const std::string& form_factors);
+
+struct Preparation {
+  std::shared_ptr<const Mesh> mesh;
+  std::string form_factors;  ///< key of the method: what `auto` became
+  std::vector<PlanDecision> plan;
+  Diagnostics diagnostics;                    ///< of scene, mesh and choice of method
+  double mesh_seconds = 0, plan_seconds = 0;  ///< wall time
+};
+
+/// Meshes the scene and plans its solve. Any thread. Throws Error (kUsage for an unknown form-factor method
+/// or an impossible mesh).
+Preparation prepare(const Scene& scene, const SolveOptions& options);
 
 }  // namespace unshot

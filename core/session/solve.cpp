@@ -6,7 +6,6 @@
 #include "base/clock.h"
 #include "formfactor/methods.h"
 #include "gl/context.h"
-#include "mesh/build.h"
 #include "session/fields.h"
 #include "session/plan.h"
 #include "solver/ambient.h"
@@ -22,7 +21,7 @@ constexpr double kStagnationShare = 1e-4;
 
 void checkError(double error) {
   if (error > 0 && error < 1) return;
-  throw Error(ErrorKind::kUsage, "the error asked for must lie between 0 and 1", {}, "--error 0.01");
+  throw Error(ErrorKind::kUsage, "the error asked for must be above 0 and below 1", {}, "--error 0.01");
 }
 
 std::vector<glm::dvec3> perPatch(const Mesh& mesh, glm::dvec3 Side::*member) {
@@ -36,7 +35,7 @@ std::vector<glm::dvec3> perPatch(const Mesh& mesh, glm::dvec3 Side::*member) {
 struct Solve::Impl {
   SolveOptions options;
   Scene scene;
-  std::shared_ptr<Mesh> mesh;
+  std::shared_ptr<const Mesh> mesh;
   std::string mode_key, form_factors_key;
   std::vector<PlanDecision> plan;
   Diagnostics diagnostics;
@@ -50,6 +49,7 @@ struct Solve::Impl {
 
   SolveState progress_state = SolveState::kRunning;
   std::string stopped_by;
+  std::optional<Error> failure;
   Measures measures;
   std::vector<HistoryEntry> history;
   bool resting = false;
@@ -66,6 +66,8 @@ struct Solve::Impl {
   void makeTransport(const std::function<gl::Context&()>& gl);
   void chooseMode(const std::string& key);
   void stop(SolveState how, std::string why);
+  void fail(ErrorKind kind, std::string why, std::string advice);
+  bool nothingDiesOut() const;
   void wakeClocks();
   void measure();
   void checkLimits();
@@ -75,19 +77,14 @@ struct Solve::Impl {
 
 void Solve::Impl::prepare(const std::function<gl::Context&()>& gl) {
   checkError(options.error);
-  const double start = wallSeconds();
   cpu_start = cpuSeconds();
-  mesh = std::make_shared<Mesh>(
-      buildMesh(scene, {options.elements, options.element_size, options.emit_front_only}));
-  seconds.mesh = wallSeconds() - start;
-
-  const double plan_start = wallSeconds();
-  form_factors_key = options.form_factors;
-  if (form_factors_key == "auto") form_factors_key = nothingCanOcclude(*mesh) ? "closed-form" : "hemicube";
-  plan = makePlan(scene, *mesh, form_factors_key);
-  diagnostics = scene.diagnostics;
-  diagnostics.insert(diagnostics.end(), mesh->diagnostics.begin(), mesh->diagnostics.end());
-  seconds.plan = wallSeconds() - plan_start;
+  Preparation prepared = unshot::prepare(scene, options);
+  mesh = std::move(prepared.mesh);
+  form_factors_key = std::move(prepared.form_factors);
+  plan = std::move(prepared.plan);
+  diagnostics = std::move(prepared.diagnostics);
+  seconds.mesh = prepared.mesh_seconds;
+  seconds.plan = prepared.plan_seconds;
 
   chooseMode(options.mode);
   const double cpu_before_setup = cpuSeconds();
@@ -107,9 +104,6 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl) {
 
 void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl) {
   const FormFactorMethodRow& row = findChoice(formFactorMethods(), form_factors_key, "form-factor method");
-  const std::string unsuited = row.unsuited(*mesh);
-  if (!unsuited.empty())
-    diagnostics.push_back({Severity::kWarning, "unsuited-method", unsuited, {}, "--form-factors auto"});
   FormFactorSetup setup;
   setup.mesh = mesh.get();
   setup.seed = options.seed;
@@ -139,6 +133,11 @@ void Solve::Impl::stop(SolveState how, std::string why) {
   stopped_by = std::move(why);
 }
 
+void Solve::Impl::fail(ErrorKind kind, std::string why, std::string advice) {
+  failure.emplace(kind, "the solve failed: " + why, scene.path.string(), std::move(advice));
+  stop(SolveState::kFailed, std::move(why));
+}
+
 void Solve::Impl::wakeClocks() {
   if (!resting) return;
   solve_start += wallSeconds() - measured_wall;
@@ -164,7 +163,7 @@ void Solve::Impl::measure() {
 
 void Solve::Impl::checkLimits() {
   if (!std::isfinite(measures.unshot_fraction)) {
-    stop(SolveState::kFailed, "a value is no longer finite");
+    fail(ErrorKind::kInternal, "a value is no longer finite", "another --mode or --form-factors");
   } else if (measures.unshot_fraction <= options.error) {
     stop(SolveState::kConverged, "error");
   } else if (options.max_shots && measures.shots >= *options.max_shots) {
@@ -174,10 +173,32 @@ void Solve::Impl::checkLimits() {
   }
 }
 
+// Whether the light still on its way goes from wall to wall that reflects all of it.
+bool Solve::Impl::nothingDiesOut() const {
+  double left = 0, reflected = 0;
+  for (std::size_t q = 0; q < state->patchCount(); ++q) {
+    for (int c = 0; c < 3; ++c) {
+      const double power = state->area()[q] * std::abs(state->unshot()[q][c]);
+      left += power;
+      if (state->reflectance()[q][c] >= 1) reflected += power;
+    }
+  }
+  return reflected >= (1 - kStagnationShare) * left;
+}
+
 void Solve::Impl::checkStagnation() {
   if (measures.shots - watched_shots < kStagnationPasses * mesh->patch_count) return;
   if (measures.unshot_fraction > (1 - kStagnationShare) * watched_fraction) {
-    stop(SolveState::kFailed, "stagnation: the unshot power does not fall; do all walls reflect everything?");
+    if (nothingDiesOut()) {
+      fail(ErrorKind::kInput,
+           "no finite solution: the walls that the light reaches reflect all of it (reflectance 1) and let "
+           "none "
+           "out, so it never dies out",
+           "a reflectance (Kd) below 1 for some wall, or --max-shots N for the light of a number of bounces");
+    } else {
+      fail(ErrorKind::kInternal, "stagnation: the unshot power does not fall",
+           "another --mode or --form-factors");
+    }
   }
   watched_fraction = measures.unshot_fraction;
   watched_shots = measures.shots;
@@ -303,5 +324,6 @@ const PhaseSeconds& Solve::seconds() const { return impl_->seconds; }
 std::size_t Solve::keptBytes() const { return impl_->transport->keptBytes(); }
 std::uint64_t Solve::drawn() const { return impl_->transport->drawn(); }
 const std::string& Solve::stoppedBy() const { return impl_->stopped_by; }
+const std::optional<Error>& Solve::failure() const { return impl_->failure; }
 
 }  // namespace unshot

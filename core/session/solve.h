@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "scene/scene.h"
 #include "session/snapshot.h"
 
@@ -109,6 +110,9 @@ class Solve {
   std::uint64_t drawn() const;    ///< hemicubes drawn
   /// "error", "max_seconds", "max_shots", "interrupted", "no light", or what failed.
   const std::string& stoppedBy() const;
+  /// What failed and what to try: kInput where the scene has no finite solution, kInternal for numerical
+  /// trouble. Nothing unless state() is kFailed.
+  const std::optional<Error>& failure() const;
 
  private:
   struct Impl;

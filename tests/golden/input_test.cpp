@@ -113,9 +113,18 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         DoubtfulScene{"FaceWithoutArea", roomObj() + "f 1 1 2\n", "odd.obj:18: warning: "},
         DoubtfulScene{"NoLight", roomObj("white", "white"), "odd.obj: warning: no face emits light"},
+        DoubtfulScene{"TextureIndex", roomObj() + "vt 0 0\nf 1/1 2/2 3/1 4/1\n", "odd.obj:19: warning: "},
         DoubtfulScene{"ReflectanceAboveOne", roomObj("bright"), "room.mtl:7: warning: material 'bright'"},
         DoubtfulScene{"NoMaterialFile", "mtllib none.mtl\n" + roomObj(), "odd.obj:1: warning: "}),
     [](const auto& each) { return std::string(each.param.name); });
+
+TEST(DoubtfulScene, AdviceAgainstDarknessNamesOnlyWhatThereIs) {
+  const TempFolder folder;
+  folder.write("room.mtl", testing_support::kMaterials);
+  folder.write("dark.obj", roomObj("white", "white"));
+  EXPECT_THAT(runProgram(folder, {"check", "dark.obj"}).out,
+              AllOf(HasSubstr("try: give a material of the MTL file a Ke\n"), Not(HasSubstr("sky"))));
+}
 
 struct BadProbes {
   const char* name;

@@ -1,8 +1,11 @@
 // Solving for real: what is written, how it ends, and that nothing is lost on the way.
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 #include <time.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "support/run_program.h"
 #include "support/scenes.h"
@@ -102,14 +105,15 @@ TEST(Solve, OutputThatCannotBeWrittenIsFoundBeforeTheSolve) {
 TEST(Solve, AnOutputThatFailsLateDoesNotCostTheOthers) {
   const TempFolder folder;
   writeRoom(folder);
-  // A full disk: it shows only when written to. The PLY file comes before the report, so put the failure
-  // first.
-  const ProgramResult result = runProgram(
-      folder, {"solve", "room.obj", "--elements", "60", "--ply", "/dev/full", "--report", "p.json"});
-  EXPECT_EQ(result.code, 4);
-  EXPECT_THAT(result.err, AllOf(HasSubstr("unshot: /dev/full: cannot be written"), HasSubstr("\n  try: ")));
+  // A full disk: it shows only when written to. Devices are written after files, the PLY before the report.
+  for (const std::string report : {"p.json", "/dev/null"}) {
+    const ProgramResult result = runProgram(
+        folder, {"solve", "room.obj", "--elements", "60", "--ply", "/dev/full", "--report", report});
+    EXPECT_EQ(result.code, 4);
+    EXPECT_THAT(result.err, AllOf(HasSubstr("unshot: /dev/full: cannot be written"), HasSubstr("\n  try: ")));
+    EXPECT_THAT(result.out, HasSubstr("written     " + report));
+  }
   EXPECT_THAT(folder.read("p.json"), StartsWith("{"));
-  EXPECT_THAT(result.out, HasSubstr("p.json"));
 }
 
 /// Waits until `ready`, looking again every 5 ms; false after two minutes.
@@ -141,6 +145,97 @@ TEST_P(SolveInterrupted, EndsWith130AndWritesTheResult) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, SolveInterrupted, testing::Values(SIGINT, SIGTERM, SIGHUP));
+
+TEST(SolveInterruptedEarly, EndsWith130AfterMeshingAndWritesNothing) {
+  const TempFolder folder;
+  writeRoom(folder, testing_support::boxObj() + "f 1 1 2\n");
+  const auto before = folder.names();
+  ProgramRun run(folder.path(), {"solve", "room.obj", "--elements", "300000", "--ply", "p.ply"});
+  // What is doubtful about the file is said before meshing, which takes a while.
+  ASSERT_TRUE(
+      eventually([&] { return run.errorsSoFar().find("  try: ") != std::string::npos || !run.running(); }));
+  run.send(SIGINT);
+  const ProgramResult result = run.wait();
+  EXPECT_EQ(result.code, 130) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("unshot: interrupted before the solve began; there is no result"));
+  EXPECT_THAT(result.out, IsEmpty());
+  EXPECT_EQ(folder.names(), before);
+}
+
+/// A solve that has ended and waits for a reader of its pipe; the report is written by then.
+class SolveWriting : public testing::Test {
+ protected:
+  SolveWriting() {
+    writeRoom(folder_);
+    EXPECT_EQ(::mkfifo((folder_ / "p.ply").c_str(), 0600), 0);
+    run_.emplace(folder_.path(), std::vector<std::string>{"solve", "room.obj", "--elements", "60", "--ply",
+                                                          "p.ply", "--report", "p.json"});
+    EXPECT_TRUE(eventually([&] { return folder_.names().count("p.json") > 0 || !run_->running(); }));
+  }
+  TempFolder folder_;
+  std::optional<ProgramRun> run_;
+};
+
+TEST_F(SolveWriting, InterruptedOnceWritesAllAndEndsWith130) {
+  run_->send(SIGINT);
+  EXPECT_THAT(folder_.read("p.ply"), StartsWith("ply\n"));
+  const ProgramResult result = run_->wait();
+  EXPECT_EQ(result.code, 130);
+  EXPECT_THAT(result.err,
+              HasSubstr("unshot: interrupted after the solve had ended (error); its result is written"));
+  EXPECT_THAT(result.out, HasSubstr("p.ply"));
+  EXPECT_EQ(nlohmann::json::parse(folder_.read("p.json"))["stopped_by"], "error");
+}
+
+TEST_F(SolveWriting, InterruptedTwiceEndsAtOnce) {
+  // Two signals of a kind may arrive as one.
+  EXPECT_TRUE(eventually([&] {
+    run_->send(SIGINT);
+    run_->send(SIGTERM);
+    return !run_->running();
+  }));
+  EXPECT_GE(run_->wait().code, 128);
+  EXPECT_THAT(folder_.names(), ElementsAre("p.json", "p.ply", "room.mtl", "room.obj"));
+  EXPECT_THAT(folder_.read("p.json"), StartsWith("{"));
+}
+
+TEST(Solve, ARoomThatReflectsAllHasNoSolutionAndIsWrittenAllTheSame) {
+  const TempFolder folder;
+  folder.write("room.mtl", "newmtl white\nKd 1 1 1\nnewmtl light\nKd 1 1 1\nKe 3 3 3\n");
+  folder.write("room.obj", testing_support::roomObj());
+  const ProgramResult result =
+      runProgram(folder, {"solve", "room.obj", "--elements", "24", "--report", "p.json"});
+  EXPECT_EQ(result.code, 3);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("no finite solution"),
+                                HasSubstr("\n  try: a reflectance (Kd) below 1"), HasSubstr("--max-shots")));
+  EXPECT_THAT(nlohmann::json::parse(folder.read("p.json"))["stopped_by"].get<std::string>(),
+              StartsWith("no finite solution"));
+  EXPECT_EQ(runProgram(folder, {"solve", "room.obj", "--elements", "24", "--max-shots", "100"}).code, 5);
+}
+
+TEST(Solve, SaysWhereANameEndsAsIfTheFileHeldSomethingElse) {
+  const TempFolder folder;
+  writeRoom(folder);
+  const ProgramResult result =
+      runProgram(folder, {"solve", "room.obj", "--elements", "60", "--ply", "p.obj", "--report", "P.JSON"});
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.err, "p.obj: note: written as PLY solution all the same: --ply writes nothing else\n");
+  EXPECT_THAT(folder.read("p.obj"), StartsWith("ply\n"));
+}
+
+// The C library says on standard error what is loaded.
+TEST(Check, NeedsNoOpenGl) {
+  const TempFolder folder;
+  writeRoom(folder, testing_support::boxObj());
+  ::setenv("LD_DEBUG", "files", 1);
+  const ProgramResult result = runProgram(folder, {"check", "room.obj"});
+  ::unsetenv("LD_DEBUG");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_THAT(result.err, HasSubstr("libc.so"));
+  EXPECT_THAT(result.err, testing::Not(HasSubstr("libOSMesa")));
+  EXPECT_THAT(result.err, testing::Not(HasSubstr("libEGL")));
+  EXPECT_THAT(result.out, HasSubstr("Nothing is wrong"));
+}
 
 TEST(Check, PrintsFiguresAndJson) {
   const TempFolder folder;

@@ -1,6 +1,8 @@
 // What the program says about itself, and about words that it does not understand: exit codes 0 and 2.
 #include <gmock/gmock.h>
 
+#include <cstdlib>
+
 #include "support/run_program.h"
 #include "support/scenes.h"
 
@@ -57,8 +59,11 @@ TEST(List, NamesEveryTable) {
   }
 }
 
-TEST(View, SaysHowToSolveWithoutAViewer) {
+TEST(View, SaysHowToSolveWithoutADisplay) {
   const TempFolder folder;
+  testing_support::writeRoom(folder);
+  ::unsetenv("DISPLAY");
+  ::unsetenv("WAYLAND_DISPLAY");
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{}, {"view"}, {"view", "room.obj"}, {"room.obj"}}) {
     const ProgramResult result = runProgram(folder, arguments);
@@ -66,6 +71,17 @@ TEST(View, SaysHowToSolveWithoutAViewer) {
     EXPECT_THAT(result.err, HasSubstr("unshot solve "));
     EXPECT_THAT(result.err, HasSubstr("--png"));
   }
+}
+
+TEST(AppRun, RefusesASecondArgument) {
+  const TempFolder folder;
+  const std::string command =
+      "'" UNSHOT_SOURCE_DIR "/app/run' one.obj two >'" + folder / "out" + "' 2>'" + folder / "err" + "'";
+  const int status = std::system(command.c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  EXPECT_THAT(folder.read("out"), IsEmpty());
+  EXPECT_THAT(folder.read("err"), StartsWith("unshot: 'two' is one argument too many\n  try: "));
 }
 
 struct UsageCase {
@@ -114,7 +130,10 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"solve", "room.obj", "--element-size", "0"}, "--element-size: 0 is not above 0"},
         UsageCase{{"solve", "room.obj", "--element-size", "nan"}, "'nan' is not a number"},
         UsageCase{{"solve", "room.obj", "--element-size", "inf"}, "--element-size: inf is not"},
-        UsageCase{{"solve", "room.obj", "--error", "2"}, "--error: 2 is not above 0 and at most 1"},
+        UsageCase{{"solve", "room.obj", "--error", "2"}, "--error: 2 is not above 0 and below 1"},
+        UsageCase{{"solve", "room.obj", "--error", "1"}, "--error: 1 is not above 0 and below 1"},
+        UsageCase{{"solve", "room.obj", "--error", "0"}, "--error: 0 is not above 0 and below 1"},
+        UsageCase{{"solve", "room.obj", "--error", "nan"}, "--error: nan is not above 0 and below 1"},
         UsageCase{{"solve", "room.obj", "--max-seconds", "0"}, "--max-seconds: 0 is not above 0"},
         UsageCase{{"solve", "room.obj", "--max-shots", "0"}, "--max-shots: 0 is not at least 1"},
         UsageCase{{"solve", "room.obj", "--seed", "1.5"}, "--seed: '1.5' is not a whole number"},
@@ -131,6 +150,7 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"solve", "room.obj", "--form-factors", "magic"}, "it is one of auto, hemicube"},
         UsageCase{{"solve", "room.obj", "--display", "magic"}, "it is one of radiosity"},
         UsageCase{{"solve", "room.obj", "--gl", "magic"}, "it is one of auto, osmesa"},
+        UsageCase{{"solve", "room.obj", "--gl", "glfw"}, "'glfw' opens a window: only `unshot view` has one"},
         UsageCase{{"compare", "a", "b", "--tolerance", "-1"}, "--tolerance: -1 is not at least 0"}));
 
 INSTANTIATE_TEST_SUITE_P(

@@ -90,7 +90,8 @@ std::pair<std::string, int> shell(const std::string& command) {
   return {output, ::pclose(pipe)};
 }
 
-/// clang-format lays code out a little differently from version to version; this is the one of the platform.
+/// clang-format lays code out a little differently from version to version; this is the one that Debian 12
+/// has.
 constexpr const char* kVersion = "version 14.";
 
 TEST(Formatting, FollowsClangFormat) {

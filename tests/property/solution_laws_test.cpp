@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
+#include "export/probes.h"
 #include "support/dice.h"
 #include "support/solving.h"
 #include "support/test_scenes.h"
@@ -52,6 +54,38 @@ double largestDifference(const std::vector<glm::dvec3>& a, const std::vector<glm
     }
   }
   return out;
+}
+
+using Answers = std::vector<std::optional<glm::dvec3>>;
+
+// One in the middle of each element.
+std::vector<Probe> elementProbes(const Mesh& mesh) {
+  std::vector<Probe> out;
+  for (const Side& side : mesh.sides) {
+    const Range elements = mesh.surfaces[side.surface].elements;
+    for (std::uint32_t e = elements.first; e < elements.end(); ++e)
+      out.push_back({mesh.frame_origin + mesh.shapes[e].centre, side.normal});
+  }
+  return out;
+}
+
+// What a scene scaled by `scale` answers to the same probes.
+Answers probedAt(const Solve& solve, std::vector<Probe> probes, double scale) {
+  for (Probe& probe : probes) probe.position *= scale;
+  return answerProbes(solve.snapshot(), probes, false);
+}
+
+// RMS(a - b) / RMS(b); every probe must have an answer.
+double rmsDifference(const Answers& a, const Answers& b) {
+  double error = 0, total = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    EXPECT_TRUE(a[k] && b[k]) << "probe " << k << " lies on nothing";
+    if (!a[k] || !b[k]) return INFINITY;
+    const glm::dvec3 difference = *a[k] - *b[k];
+    error += glm::dot(difference, difference);
+    total += glm::dot(*b[k], *b[k]);
+  }
+  return std::sqrt(error / total);
 }
 
 // Noise of a method in means over a face of some hundred elements: each turn of the scene turns the pixels of
@@ -106,13 +140,28 @@ TEST_P(Solution, DoesNotDependOnWhereTheSceneStands) {
   EXPECT_LT(difference, noise());
 }
 
+// Extreme ones too: no step may hold lengths or areas against a fixed number, or overflow.
+const double kScales[] = {1e-12, 1e-6, 1e-3, 1e4, 1e6, 1e12};
+
+std::string scaledBy(double scale) {
+  char text[32];
+  std::snprintf(text, sizeof text, "scaled by %g", scale);
+  return text;
+}
+
 TEST_P(Solution, DoesNotDependOnTheUnitOfLength) {
-  const std::vector<glm::dvec3> expected = materialMeans(*solve(colouredCube()));
-  for (const double scale : {1e-3, 1e4}) {
-    const double difference =
-        largestDifference(materialMeans(*solve(moved(colouredCube(), unturned(), scale))), expected);
-    measured("scaled by " + std::to_string(scale), difference);
+  const auto plain = solve(colouredCube());
+  const std::vector<glm::dvec3> expected = materialMeans(*plain);
+  const std::vector<Probe> probes = elementProbes(plain->mesh());
+  const Answers answers = answerProbes(plain->snapshot(), probes, false);
+  for (const double scale : kScales) {
+    const auto scaled = solve(moved(colouredCube(), unturned(), scale));
+    const double difference = largestDifference(materialMeans(*scaled), expected);
+    measured(scaledBy(scale), difference);
     EXPECT_LT(difference, noise());
+    const double probed = rmsDifference(probedAt(*scaled, probes, scale), answers);
+    measured(scaledBy(scale) + ", RMS of probes", probed);
+    EXPECT_LT(probed, 4 * noise());
   }
 }
 
@@ -156,6 +205,21 @@ TEST(CornellBoxSolution, DoesNotDependOnPlaceScaleOrOrder) {
   measured("turned, in metres", turned);
   EXPECT_LT(shuffled, 0.02);
   EXPECT_LT(turned, 0.02);
+}
+
+TEST(CornellBoxSolution, DoesNotDependOnTheUnitOfLength) {
+  const Scene scene = publishedCornellBox();
+  const SolveOptions options = optionsOf("hemicube", 1000, 1e-3);
+  const auto plain = solved(scene, options);
+  const std::vector<Probe> probes = elementProbes(plain->mesh());
+  const Answers answers = answerProbes(plain->snapshot(), probes, false);
+  for (const double scale : kScales) {
+    const auto scaled = solved(moved(scene, unturned(), scale), options);
+    EXPECT_EQ(scaled->mesh().element_count, plain->mesh().element_count);
+    const double difference = rmsDifference(probedAt(*scaled, probes, scale), answers);
+    measured(scaledBy(scale) + ", RMS of probes", difference);
+    EXPECT_LT(difference, 0.02);
+  }
 }
 
 }  // namespace

@@ -1,7 +1,12 @@
 #include "export/atomic_file.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <functional>
 
@@ -95,6 +100,30 @@ TEST(AtomicFile, SaysWhyAPlaceCannotBeWritten) {
   EXPECT_THAT(errorOf([&] { checkWritable(folder / std::string(300, 'n')); }).kind(),
               ErrorKind::kEnvironment);
   EXPECT_THAT(folder.names(), ElementsAre("file"));
+}
+
+TEST(AtomicFile, AProgramThatEndsWhileItWritesLeavesTheOldFileAlone) {
+  const TempFolder folder;
+  folder.write("a.txt", "old");
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    // Ends the child in the middle of the file.
+    const rlimit smaller{4096, 4096};
+    ::setrlimit(RLIMIT_FSIZE, &smaller);
+    ::signal(SIGXFSZ, SIG_DFL);
+    writeWholeFile(folder / "a.txt", std::string(100'000, 'x'));
+    ::_exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(WTERMSIG(status), SIGXFSZ);
+  EXPECT_EQ(folder.read("a.txt"), "old");
+  const int unnamed = ::open(folder.path().c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0600);
+  if (unnamed < 0) return;  // a file system that knows only files with names
+  ::close(unnamed);
+  EXPECT_THAT(folder.names(), ElementsAre("a.txt"));
 }
 
 TEST(AtomicFile, KeepsTheOldFileWhereTheDiskIsFull) {

@@ -224,5 +224,15 @@ TEST(BuildMesh, LetsBackSidesEmitUnlessToldNotTo) {
   }
 }
 
+TEST(Grid, SaysWhereAScaleIsBeyondSinglePrecision) {
+  const auto said = [](double edge) {
+    const Mesh mesh = buildMesh(rectangle(edge, edge), {.elements = 10});
+    return std::count_if(mesh.diagnostics.begin(), mesh.diagnostics.end(),
+                         [](const Diagnostic& d) { return d.code == "extreme-size"; });
+  };
+  for (const double edge : {1e-12, 1.0, 1e12}) EXPECT_EQ(said(edge), 0) << edge;
+  for (const double edge : {1e-35, 1e35}) EXPECT_EQ(said(edge), 1) << edge;
+}
+
 }  // namespace
 }  // namespace unshot

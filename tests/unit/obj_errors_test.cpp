@@ -61,10 +61,10 @@ TEST_F(ObjErrors, NamesAnIndexBeforeTheFirst) {
   expectInput(failure(withTriangle("f -1//-1 -2//-2 -3//-1\n")), "normal index -2", "scene.obj:5");
 }
 
-TEST_F(ObjErrors, NamesAnIndexBeyond32Bits) {
+TEST_F(ObjErrors, NamesAnIndexBeyondTheLargest) {
   for (const std::string index : {"2147483648", "4294967297", "-4294967297", "99999999999999999999999"}) {
     expectInput(failure(withTriangle("f 1 2 " + index + "\n")),
-                "vertex index " + index + " is beyond 32 bits", "scene.obj:5");
+                "vertex index " + index + " is beyond the largest that can be, 2147483647", "scene.obj:5");
   }
 }
 

@@ -79,6 +79,21 @@ TEST(Solve, LightBeyondTheRangeOfNumbersFails) {
   solve->step();
   EXPECT_EQ(solve->state(), SolveState::kFailed);
   EXPECT_EQ(solve->progress(), 0);
+  ASSERT_TRUE(solve->failure());
+  EXPECT_EQ(solve->failure()->kind(), ErrorKind::kInternal);
+  EXPECT_EQ(solve->stoppedBy(), "a value is no longer finite");
+}
+
+TEST(Solve, ARoomThatReflectsAllIsAnInputError) {
+  Scene scene = asset("furnace.obj");
+  for (Material& m : scene.materials) m.reflectance = glm::dvec3(1.0);
+  const auto solve = begin(std::move(scene), 0.01);
+  EXPECT_FALSE(solve->failure());
+  finish(*solve);
+  EXPECT_EQ(solve->state(), SolveState::kFailed);
+  ASSERT_TRUE(solve->failure());
+  EXPECT_EQ(solve->failure()->kind(), ErrorKind::kInput);
+  EXPECT_NE(solve->stoppedBy().find("no finite solution"), std::string::npos);
 }
 
 // What the same scene receives where it is black: H = K E. Both are sums of the same products in double,
