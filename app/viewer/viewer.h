@@ -76,7 +76,7 @@ class Viewer {
   /// Size of the GUI: 1 is a font of 15 px.
   void setScale(double scale);
   bool closing() const { return closing_; }
-  bool scriptDone() const { return script_at_ >= script_.size(); }
+  bool scriptDone() const { return script_at_ >= script_.size() && captures_.empty(); }
   /// 0, or the exit code of the first thing that failed in the script or while opening the first scene.
   int exitCode() const { return exit_code_; }
 
