@@ -73,8 +73,8 @@ constexpr double kSameRenderer = 0.005;
 
 TEST(Program, DrawsWhatSolveDraws) {
   const TempFolder folder;
-  const std::vector<std::string> common{kCornellBox, "--elements", "1000",    "--seed",
-                                        "3",         "--size",     "480x360", "--display"};
+  const std::vector<std::string> common{kCornellBox, "--elements", "500",     "--seed",
+                                        "3",         "--size",     "400x300", "--display"};
   struct Meeting {
     std::string display, script, limit;
   };
@@ -147,7 +147,7 @@ TEST(Program, EveryMethodFinenessAndHemicube) {
   }
   script +=
       "form-factors hemicube\nhemicube 128\nwait converged\nscreenshot-scene finer_hemicube.png\n"
-      "elements 1500\nwait converged\nscreenshot-scene finer_mesh.png\n";
+      "elements 800\nwait converged\nscreenshot-scene finer_mesh.png\n";
   const ProgramResult run =
       runScript(folder, script, {kTwoPatches, "--elements", "200", "--size", "400x300"});
   ASSERT_EQ(run.code, 0) << run.err;
@@ -220,7 +220,7 @@ TEST(Program, SizeAndScale) {
 
 TEST(Program, QuitsDuringLoadingAndDuringTheFirstShot) {
   const TempFolder folder;
-  const std::vector<std::string> large{kCornellBox, "--elements", "100000"};
+  const std::vector<std::string> large{kCornellBox, "--elements", "50000"};
   EXPECT_EQ(runScript(folder, "quit\nscreenshot never.png\n", large).code, 0);
   EXPECT_EQ(runScript(folder, "wait shots 0\nquit\nscreenshot never.png\n", large).code, 0);
   EXPECT_EQ(runScript(folder, "wait shots 1\nopen " + kTwoPatches + "\nquit\n", kSmall).code, 0);

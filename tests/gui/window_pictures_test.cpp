@@ -104,7 +104,7 @@ void mask(ImageF& reference, const std::vector<ImageF>& others, int scale) {
 void runOnce(const TempFolder& folder) {
   folder.write("broken.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n");
   const std::string scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
-  const ProgramResult run = runScript(folder, kScript, {scene, "--elements", "2000", "--size", "1280x720"});
+  const ProgramResult run = runScript(folder, kScript, {scene, "--elements", "1000", "--size", "1280x720"});
   ASSERT_EQ(run.code, 3) << run.err;  // of broken.obj
 }
 

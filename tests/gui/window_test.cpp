@@ -147,6 +147,8 @@ struct Ending {
   bool while_loading, by_key;
 };
 
+void PrintTo(const Ending& ending, std::ostream* out) { *out << ending.name; }
+
 class WindowEnding : public Window, public testing::WithParamInterface<Ending> {};
 
 TEST_P(WindowEnding, IsPoliteAndSoon) {
@@ -167,10 +169,10 @@ TEST_P(WindowEnding, IsPoliteAndSoon) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Gui, WindowEnding,
-                         testing::Values(Ending{"KeyWhileLoading", "200000", true, true},
-                                         Ending{"CloseWhileLoading", "200000", true, false},
-                                         Ending{"KeyInTheFirstShot", "50000", false, true},
-                                         Ending{"CloseInTheFirstShot", "50000", false, false}),
+                         testing::Values(Ending{"KeyWhileLoading", "100000", true, true},
+                                         Ending{"CloseWhileLoading", "100000", true, false},
+                                         Ending{"KeyInTheFirstShot", "30000", false, true},
+                                         Ending{"CloseInTheFirstShot", "30000", false, false}),
                          [](const auto& row) { return std::string(row.param.name); });
 
 TEST(NoWindow, WithoutADisplayItNamesTheCommandThatNeedsNone) {
