@@ -1,41 +1,74 @@
-// Timings: unshot_bench [--seconds T] [--quick]
+// Timings: unshot_bench [--seconds T] [--quick] [--only TABLE]
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <string>
 
+#include "bench/frame_table.h"
 #include "bench/picture_table.h"
 #include "bench/scene_table.h"
+
+namespace {
+
+// Elements for about 10,000, 100,000 and 1,000,000 triangles.
+const std::vector<std::uint64_t> kFrameElements{4'700, 48'000, 490'000};
+
+void printPictures(bool quick) {
+  if (quick) {
+    unshot::bench::printPictureTable({300, 1000}, 3, 1);
+  } else {
+    unshot::bench::printPictureTable({1'000, 10'000, 100'000}, 200, 12);
+  }
+}
+
+void printScenes(bool quick, double seconds) {
+  std::vector<std::filesystem::path> folders{UNSHOT_SOURCE_DIR "/assets"};
+  const char* scenes = std::getenv("UNSHOT_SCENES");
+  if (scenes && !quick) folders.emplace_back(scenes);
+  unshot::bench::printSceneTable(folders, seconds);
+}
+
+void printFrames(bool quick) {
+  if (quick) {
+    unshot::bench::printFrameTable({2'000}, 0.2);
+    unshot::bench::printOpeningTable({300});
+  } else {
+    unshot::bench::printFrameTable(kFrameElements, 4);
+    unshot::bench::printOpeningTable({2'000, 10'000, 30'000});
+  }
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   double seconds = 10;
   bool quick = false;
+  std::string only;
   for (int k = 1; k < argc; ++k) {
     if (std::strcmp(argv[k], "--quick") == 0) {
       quick = true;
       seconds = 0.2;
     } else if (std::strcmp(argv[k], "--seconds") == 0 && k + 1 < argc) {
       seconds = std::atof(argv[++k]);
+    } else if (std::strcmp(argv[k], "--only") == 0 && k + 1 < argc) {
+      only = argv[++k];
     } else {
       std::fprintf(
           stderr,
-          "usage: unshot_bench [--seconds T] [--quick]\n"
+          "usage: unshot_bench [--seconds T] [--quick] [--only TABLE]\n"
           "  --seconds T  time for each scene (default 10)\n"
           "  --quick      a short run that only shows that everything works\n"
+          "  --only T     one table: pictures, scenes or frames\n"
           "UNSHOT_SCENES names a folder of further scenes, with reference values in its folder truth.\n");
       return 2;
     }
   }
   try {
-    if (quick) {
-      unshot::bench::printPictureTable({300, 1000}, 3, 1);
-    } else {
-      unshot::bench::printPictureTable({1'000, 10'000, 100'000}, 200, 12);
-    }
-    std::vector<std::filesystem::path> folders{UNSHOT_SOURCE_DIR "/assets"};
-    const char* scenes = std::getenv("UNSHOT_SCENES");
-    if (scenes && !quick) folders.emplace_back(scenes);
-    unshot::bench::printSceneTable(folders, seconds);
+    const auto wanted = [&](const char* table) { return only.empty() || only == table; };
+    if (wanted("pictures")) printPictures(quick);
+    if (wanted("scenes")) printScenes(quick, seconds);
+    if (wanted("frames")) printFrames(quick);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "unshot_bench: %s\n", error.what());
     return 1;

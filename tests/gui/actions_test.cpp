@@ -1,0 +1,260 @@
+#include "viewer/actions.h"
+
+#include <gmock/gmock.h>
+
+#include <map>
+#include <set>
+
+#include "base/error.h"
+#include "formfactor/methods.h"
+#include "render/display_modes.h"
+#include "solver/modes.h"
+#include "support/live_viewer.h"
+#include "support/temp_folder.h"
+
+namespace unshot {
+namespace {
+
+using testing::HasSubstr;
+using testing_support::LiveViewer;
+using testing_support::TempFolder;
+
+const std::string kScenes = std::string(UNSHOT_SOURCE_DIR) + "/assets/";
+
+TEST(Actions, KeysAndShortcutsAreUnique) {
+  std::set<std::string_view> keys;
+  std::set<std::pair<int, bool>> shortcuts;
+  for (const Action& action : actions()) {
+    EXPECT_TRUE(keys.insert(action.key).second) << action.key;
+    EXPECT_NE(action.key, "wait") << "a word of scripts";
+    EXPECT_EQ(action.key.find_first_of(" \t#"), std::string_view::npos) << action.key;
+    EXPECT_FALSE(action.help.empty()) << action.key;
+    EXPECT_EQ(&findAction(action.key), &action);
+    if (action.shortcut.key == 0) continue;
+    EXPECT_TRUE(shortcuts.insert({action.shortcut.key, action.shortcut.ctrl}).second) << action.key;
+    EXPECT_FALSE(action.shortcut.text.empty()) << action.key;
+    EXPECT_EQ(action.shortcut.text.starts_with("Ctrl+"), action.shortcut.ctrl) << action.key;
+    EXPECT_FALSE(action.needsArgument()) << action.key << " has a key, which gives no argument";
+    EXPECT_EQ(actionOfKey(action.shortcut.key, action.shortcut.ctrl), &action);
+    EXPECT_EQ(
+        std::string_view("WASDQE").find(static_cast<char>(action.shortcut.key)) != std::string_view::npos,
+        action.shortcut.ctrl && action.key == "quit")
+        << action.key << " has a key of flying";
+  }
+  EXPECT_EQ(actionOfKey('Z', false), nullptr);
+}
+
+TEST(Actions, UnknownOnesAreUsageErrors) {
+  for (const char* key : {"", "jump", "Quit", "step "}) {
+    try {
+      findAction(key);
+      FAIL() << key;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kUsage);
+      EXPECT_THAT(error.advice(), HasSubstr("screenshot-scene"));
+    }
+  }
+}
+
+// For each action an argument that it must take; actions without one are not listed.
+const std::map<std::string_view, std::string>& validArguments() {
+  static const std::map<std::string_view, std::string> arguments{
+      {"open", kScenes + "two_patches.obj"},
+      {"pause", "on"},
+      {"step", "2"},
+      {"mode", "jacobi"},
+      {"form-factors", "hemicube"},
+      {"elements", "300"},
+      {"hemicube", "32"},
+      {"error", "0.02"},
+      {"display", "flat"},
+      {"radiosity", "off"},
+      {"ambient", "off"},
+      {"exposure", "-1.5"},
+      {"lock-exposure", "on"},
+      {"camera", "278,273,-800,278,273,0,39"},
+      {"panel", "off"},
+      {"help", "on"},
+      {"plot", "shots"},
+      {"size", "400x300"},
+      {"scale", "1.5"},
+      {"screenshot", "with.png"},
+      {"screenshot-scene", "without.png"},
+  };
+  return arguments;
+}
+
+TEST(Actions, ChecksRefuseNonsenseAndNeverThrow) {
+  const std::vector<std::string> nonsense{"",
+                                          " ",
+                                          "?",
+                                          "yes",
+                                          "nan",
+                                          "inf",
+                                          "-inf",
+                                          "1e999",
+                                          "0x10",
+                                          "1,2",
+                                          "1e-400",
+                                          "--",
+                                          "\xff\xfe",
+                                          "\xe2\x88\x9e",
+                                          "on on",
+                                          "OFF",
+                                          "1x1",
+                                          "x",
+                                          "200x",
+                                          ",,,,,",
+                                          "1,,3,4,5,6",
+                                          "9999999999999999999999",
+
+                                          "%s%n",
+                                          std::string(10000, '9'),
+                                          std::string("a\0b", 3)};
+  for (const Action& action : actions()) {
+    SCOPED_TRACE(action.key);
+    const auto valid = validArguments().find(action.key);
+    EXPECT_EQ(valid == validArguments().end(), action.argument.empty()) << "no argument to try here";
+    if (valid != validArguments().end()) {
+      EXPECT_EQ(checkArgument(action, valid->second), "");
+    }
+    EXPECT_EQ(checkArgument(action, "").empty(), !action.needsArgument());
+    const bool any_text = action.check == nullptr && !action.argument.empty();  // paths
+    for (const std::string& text : nonsense) {
+      std::string wrong;
+      ASSERT_NO_THROW(wrong = checkArgument(action, text)) << text;
+      if (!text.empty() && !any_text) {
+        EXPECT_FALSE(wrong.empty()) << "takes '" << text << "'";
+      }
+    }
+  }
+}
+
+LiveViewer::Options cornellBox() {
+  LiveViewer::Options options;
+  options.scene = kScenes + "cornell_box.obj";
+  options.solve.elements = 200;
+  return options;
+}
+
+/// Performs it and runs until it is carried out and shown.
+void performAndSettle(LiveViewer& live, const Action& action, const std::string& argument) {
+  static const std::set<std::string_view> kSolveAnew{"open", "restart", "form-factors", "elements",
+                                                     "hemicube"};
+  const std::uint64_t epoch = live->state().epoch;
+  live->perform(action.key, argument);
+  for (int frame = 0; frame < 5; ++frame) live.draw();
+  ASSERT_TRUE(live.until([&] {
+    const SessionPhase phase = live->state().phase;
+    return phase != SessionPhase::kLoading && phase != SessionPhase::kRunning &&
+           (live->state().epoch > epoch || live->error() || !kSolveAnew.contains(action.key));
+  }));
+}
+
+class EveryAction : public testing::Test {
+ protected:
+  EveryAction() : before_(std::filesystem::current_path()) { std::filesystem::current_path(folder_.path()); }
+  ~EveryAction() override { std::filesystem::current_path(before_); }
+  TempFolder folder_;
+
+ private:
+  std::filesystem::path before_;
+};
+
+TEST_F(EveryAction, PerformsOnALiveViewer) {
+  LiveViewer live(cornellBox());
+  ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
+  ASSERT_TRUE(live.until([&] { return live->nextFrame(0) > 1e30; })) << "never at rest";
+  for (const Action& action : actions()) {
+    if (action.key == "quit") continue;
+    const auto valid = validArguments().find(action.key);
+    for (const bool with : {true, false}) {
+      if (with ? valid == validArguments().end() : action.needsArgument()) continue;
+      SCOPED_TRACE(std::string(action.key) + (with ? " " + valid->second : ""));
+      performAndSettle(live, action, with ? valid->second : "");
+      ASSERT_FALSE(live->error()) << live->error()->fullText();
+    }
+  }
+  EXPECT_EQ(live->state().facts->scene_name, "two_patches");
+  EXPECT_EQ(live->exitCode(), 0);
+  EXPECT_FALSE(live->closing());
+  live->perform("quit");
+  EXPECT_TRUE(live->closing());
+  EXPECT_EQ(folder_.names(), (std::set<std::string>{"with.png", "without.png", "unshot-two_patches-001.png",
+                                                    "unshot-two_patches-002.png"}));
+}
+
+TEST_F(EveryAction, WithoutASceneNoneCrashes) {
+  LiveViewer::Options options;
+  LiveViewer live(options);
+  for (const Action& action : actions()) {
+    if (action.key == "quit" || action.key == "open") continue;
+    const auto valid = validArguments().find(action.key);
+    SCOPED_TRACE(action.key);
+    performAndSettle(live, action, valid == validArguments().end() ? "" : valid->second);
+    if (HasFatalFailure()) return;
+    live->perform("dismiss");
+  }
+  EXPECT_EQ(live->state().phase, SessionPhase::kEmpty);
+  EXPECT_TRUE(std::filesystem::exists("with.png"));
+}
+
+TEST(LiveViewer, AWrongArgumentIsShownAndChangesNothing) {
+  LiveViewer live(cornellBox());
+  live->perform("display", "colours");
+  ASSERT_TRUE(live->error());
+  EXPECT_EQ(live->error()->kind(), ErrorKind::kUsage);
+  EXPECT_EQ(live->ui().settings.view.display, "radiosity");
+  live->perform("dismiss");
+  EXPECT_FALSE(live->error());
+}
+
+TEST(LiveViewer, CountsShotsExactly) {
+  LiveViewer::Options options = cornellBox();
+  options.script = "pause on\nstep 5\nwait shots 5\nstep\nwait shots 6\nstep 37\nwait shots 43\n";
+  LiveViewer live(options);
+  std::set<std::uint64_t> counts;
+  ASSERT_TRUE(live.until([&] {
+    if (live->state().phase == SessionPhase::kPaused) counts.insert(live->state().measures.shots);
+    return live->scriptDone();
+  }));
+  EXPECT_EQ(live->state().phase, SessionPhase::kPaused);
+  EXPECT_EQ(live->state().measures.shots, 43u);
+  EXPECT_EQ(live->state().history->back().measures.shots, 43u);
+  for (const std::uint64_t count : counts) {
+    EXPECT_TRUE(std::set<std::uint64_t>({0, 5, 6, 43}).contains(count)) << "paused after " << count;
+  }
+}
+
+TEST(LiveViewer, EveryModeMethodAndFinenessConverges) {
+  LiveViewer::Options options = cornellBox();
+  options.scene = kScenes + "furnace.obj";
+  LiveViewer live(options);
+  ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
+  EXPECT_EQ(live.title(), "furnace \u2013 Unshot");
+  const auto again = [&](const std::string& action, const std::string& argument) {
+    SCOPED_TRACE(action + " " + argument);
+    const std::uint64_t epoch = live->state().epoch;
+    live->perform(action, argument);
+    ASSERT_TRUE(live.until(
+        [&] { return live->state().epoch > epoch && live->state().phase == SessionPhase::kConverged; }));
+    ASSERT_FALSE(live->error()) << live->error()->fullText();
+  };
+  for (const FormFactorMethodRow& method : formFactorMethods()) {
+    again("form-factors", std::string(method.info.key));
+    EXPECT_EQ(live->state().facts->form_factors, method.info.key);
+  }
+  again("form-factors", "auto");
+  again("elements", "600");
+  EXPECT_NEAR(static_cast<double>(live->state().facts->elements), 600, 100);
+  again("hemicube", "32");
+  again("hemicube", "0");
+  for (const IterationModeRow& mode : iterationModes()) {
+    live->perform("mode", std::string(mode.info.key));
+    again("restart", "");
+    EXPECT_EQ(live->state().facts->mode, mode.info.key);
+  }
+}
+
+}  // namespace
+}  // namespace unshot

@@ -1,0 +1,133 @@
+// The viewer on OSMesa inside the test: a host without a window whose state and inputs the test holds.
+#pragma once
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "base/clock.h"
+#include "gl/objects.h"
+#include "viewer/viewer.h"
+
+namespace unshot::testing_support {
+
+class LiveViewer {
+ public:
+  struct Options {
+    std::filesystem::path scene;
+    SolveOptions solve;
+    std::string script;
+    int width = 320, height = 240;
+  };
+
+  explicit LiveViewer(const Options& options)
+      : width_(options.width),
+        height_(options.height),
+        solver_(gl::createContext("osmesa")),
+        display_(gl::createContext("osmesa")) {
+    display_->makeCurrent();
+    objects_ = std::make_unique<Objects>(*display_);
+    ViewerSetup setup;
+    setup.display = display_.get();
+    setup.session = {solver_.get(), [this] { ring(); }};
+    setup.scene = options.scene;
+    setup.options = options.solve;
+    setup.settings.view.display = "radiosity";
+    std::istringstream script(options.script);
+    setup.script = parseScript(script, "script");
+    setup.resize = [this](int width, int height) { resize(width, height); };
+    setup.title = [this](const std::string& title) { title_ = title; };
+    viewer_ = std::make_unique<Viewer>(std::move(setup));
+    resize(width_, height_);
+  }
+
+  Viewer& operator*() { return *viewer_; }
+  Viewer* operator->() { return viewer_.get(); }
+  const gl::Functions& fn() const { return display_->functions(); }
+  const std::string& title() const { return title_; }
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+  /// Takes what happened and draws the frame that is due, if one is. Returns whether one was drawn.
+  bool pump() {
+    viewer_->update(wallSeconds());
+    const double now = wallSeconds();
+    if (viewer_->nextFrame(now) > now) return false;
+    draw();
+    return true;
+  }
+  /// Draws a frame to its end, due or not.
+  void draw() {
+    const double now = wallSeconds();
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = {static_cast<float>(width_), static_cast<float>(height_)};
+    io.DeltaTime = static_cast<float>(std::clamp(now - last_, 1e-4, 0.1));
+    last_ = now;
+    viewer_->draw(objects_->framebuffer.id(), width_, height_);
+    fn().Finish();
+    viewer_->presented();
+  }
+  /// Waits until the session has something new, or for `seconds`.
+  void rest(double seconds) {
+    std::unique_lock lock(mutex_);
+    condition_.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return rung_; });
+    rung_ = false;
+  }
+  /// Runs until the condition holds, and returns whether it did in time.
+  bool until(const std::function<bool()>& condition, double seconds = 120) {
+    const double end = wallSeconds() + seconds;
+    while (!condition()) {
+      if (wallSeconds() > end) return false;
+      if (!pump()) rest(std::clamp(viewer_->nextFrame(wallSeconds()) - wallSeconds(), 0.0, 0.05));
+    }
+    return true;
+  }
+  bool untilPhase(SessionPhase phase) {
+    return until([&] { return viewer_->state().phase == phase; });
+  }
+
+ private:
+  struct Objects {
+    explicit Objects(gl::Context& context) : picture(context), framebuffer(context) {}
+    gl::Texture picture;
+    gl::Framebuffer framebuffer;
+  };
+
+  void ring() {
+    {
+      const std::scoped_lock lock(mutex_);
+      rung_ = true;
+    }
+    condition_.notify_one();
+  }
+  void resize(int width, int height) {
+    width_ = width;
+    height_ = height;
+    fn().BindTexture(GL_TEXTURE_2D, objects_->picture.id());
+    fn().TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+    fn().BindTexture(GL_TEXTURE_2D, 0);
+    fn().BindFramebuffer(GL_FRAMEBUFFER, objects_->framebuffer.id());
+    fn().FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, objects_->picture.id(), 0);
+    objects_->framebuffer.checkComplete("the test's window");
+  }
+
+  std::mutex mutex_;
+  std::condition_variable condition_;
+  bool rung_ = false;
+  int width_, height_;
+  double last_ = 0;
+  std::string title_;
+  std::unique_ptr<gl::Context> solver_, display_;
+  std::unique_ptr<Objects> objects_;
+  std::unique_ptr<Viewer> viewer_;
+};
+
+}  // namespace unshot::testing_support
