@@ -15,6 +15,7 @@ namespace {
 using testing_support::LiveViewer;
 
 constexpr int kWidth = 1280, kHeight = 720;
+constexpr int kRounds = 3;
 constexpr double kLooksRight = 0.05;  // nRMSE of linear light
 
 LiveViewer::Options cornellBox(std::uint64_t elements) {
@@ -83,6 +84,33 @@ double columnRate(LiveViewer& live, double seconds, bool draw, Frames* frames = 
   return static_cast<double>(live->state().measures.rows - before) / (wallSeconds() - start);
 }
 
+struct Round {
+  double alone = 0, meanwhile = 0;  // columns a second
+  Frames solving, idle;
+
+  /// Keeps the better of each: what other programs take away is not meant.
+  void improve(Round other) {
+    alone = std::max(alone, other.alone);
+    meanwhile = std::max(meanwhile, other.meanwhile);
+    for (Frames Round::*part : {&Round::solving, &Round::idle}) {
+      if ((this->*part).seconds.empty() || (other.*part).median() < (this->*part).median())
+        std::swap(this->*part, other.*part);
+    }
+  }
+};
+
+Round measureRound(LiveViewer& live, double seconds) {
+  Round round;
+  live->resume();
+  live.until([&] { return live->state().phase != SessionPhase::kPaused; });
+  round.alone = columnRate(live, seconds, false);
+  round.meanwhile = columnRate(live, seconds, true, &round.solving);
+  live->pause();
+  live.untilPhase(SessionPhase::kPaused);
+  round.idle = dragFor(live, seconds);
+  return round;
+}
+
 std::vector<float> sceneLight(LiveViewer& live) {
   std::vector<std::uint8_t> pixels(4 * static_cast<std::size_t>(kWidth) * kHeight);
   live.fn().ReadPixels(0, 0, kWidth, kHeight, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
@@ -148,9 +176,10 @@ Opening openOnce(std::uint64_t elements, bool look) {
 void printFrameTable(const std::vector<std::uint64_t>& elements, double seconds) {
   std::printf("Frames of the viewer, %d x %d, Cornell box, the camera moving\n", kWidth, kHeight);
   std::printf(
-      "(OSMesa, %g s each; the solver keeps no columns, so that its rate is even. Share: of the columns a "
+      "(OSMesa; best of %d rounds of %g s; the solver keeps no columns, so that its rate is even. Share: of "
+      "the columns a "
       "second\n that it computes where nothing is drawn.)\n\n",
-      seconds);
+      kRounds, seconds);
   TextTable table({"elements", "triangles", "idle median ms", "worst", "solving median ms", "worst",
                    "frames/s", "columns/s", "share"});
   for (const std::uint64_t count : elements) {
@@ -160,18 +189,15 @@ void printFrameTable(const std::vector<std::uint64_t>& elements, double seconds)
     LiveViewer live(options);
     const glm::dvec3 unframed = live->camera().eye;
     live.until([&] { return live->camera().eye != unframed; });
-    const double alone = columnRate(live, seconds, false);
-    Frames solving;
-    const double meanwhile = columnRate(live, seconds, true, &solving);
-    live->pause();
-    live.untilPhase(SessionPhase::kPaused);
-    Frames idle = dragFor(live, seconds);
+    Round best;
+    for (int round = 0; round < kRounds; ++round) best.improve(measureRound(live, seconds));
     const Mesh& mesh = *live->state().snapshot->mesh;
     table.add({std::to_string(mesh.element_count), std::to_string(mesh.triangle_element.size()),
-               figure("%.1f", 1e3 * idle.median()), figure("%.1f", 1e3 * idle.worst()),
-               figure("%.1f", 1e3 * solving.median()), figure("%.1f", 1e3 * solving.worst()),
-               figure("%.0f", static_cast<double>(solving.seconds.size()) / seconds), figure("%.0f", alone),
-               alone > 0 ? figure("%.0f %%", 100 * meanwhile / alone) : "-"});
+               figure("%.1f", 1e3 * best.idle.median()), figure("%.1f", 1e3 * best.idle.worst()),
+               figure("%.1f", 1e3 * best.solving.median()), figure("%.1f", 1e3 * best.solving.worst()),
+               figure("%.0f", static_cast<double>(best.solving.seconds.size()) / seconds),
+               figure("%.0f", best.alone),
+               best.alone > 0 ? figure("%.0f %%", 100 * best.meanwhile / best.alone) : "-"});
   }
   table.print();
 }

@@ -34,7 +34,7 @@ void printFrames(bool quick) {
     unshot::bench::printFrameTable({2'000}, 0.2);
     unshot::bench::printOpeningTable({300});
   } else {
-    unshot::bench::printFrameTable(kFrameElements, 4);
+    unshot::bench::printFrameTable(kFrameElements, 2);
     unshot::bench::printOpeningTable({2'000, 10'000, 30'000});
   }
 }
