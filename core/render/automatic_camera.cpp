@@ -43,7 +43,7 @@ class SidePictures {
     fn.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     fn.BindTexture(GL_TEXTURE_2D, 0);
     fn.BindRenderbuffer(GL_RENDERBUFFER, depth_.id());
-    fn.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, width, kLookHeight);
+    fn.RenderbufferStorage(GL_RENDERBUFFER, DepthSetup(fn).format, width, kLookHeight);
     fn.BindRenderbuffer(GL_RENDERBUFFER, 0);
     fn.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
     fn.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, ids_.id(), 0);
@@ -59,12 +59,12 @@ class SidePictures {
     fn.Viewport(0, 0, width_, kLookHeight);
     setPassState(fn, true);
     const GLuint nothing[4] = {};
-    const GLfloat farthest = 1;
+    const DepthSetup depth(fn);
     fn.ClearBufferuiv(GL_COLOR, 0, nothing);
-    fn.ClearBufferfv(GL_DEPTH, 0, &farthest);
+    fn.ClearBufferfv(GL_DEPTH, 0, &depth.farthest);
     program_.use();
     const double aspect = static_cast<double>(width_) / kLookHeight;
-    const glm::mat4 matrix = viewProjection(camera, aspect, bounds_);
+    const glm::mat4 matrix = viewProjection(camera, aspect, bounds_, {}, depth.range);
     fn.UniformMatrix4fv(program_.uniform("view_projection"), 1, GL_FALSE, glm::value_ptr(matrix));
     fn.BindVertexArray(vertex_array_.id());
     fn.DrawArrays(GL_TRIANGLES, 0, vertex_count_);
