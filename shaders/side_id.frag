@@ -1,8 +1,12 @@
 #version 330 core
-// Which side is seen: its index + 1, 0 for none.
+// Which side is seen: its index + 1, 0 for none. A side that no light can reach is not there.
 
-flat in uint vertex_side;
+uniform usamplerBuffer triangle_sides;  // per triangle: front, back, as index + 1 or 0
 
 out uint id;
 
-void main() { id = vertex_side + 1u; }
+void main() {
+  uvec2 sides = texelFetch(triangle_sides, gl_PrimitiveID).rg;
+  id = gl_FrontFacing ? sides.r : sides.g;
+  if (id == 0u) discard;
+}

@@ -104,6 +104,12 @@ namespace unshot::gl {
   UNSHOT_GL_QUERIES_FENCES(X)
 // clang-format on
 
+// Functions of later versions: null in contexts without them.
+// clang-format off
+#define UNSHOT_GL_OPTIONAL_FUNCTIONS(X) \
+  X(CLIPCONTROL, ClipControl, 45, "GL_ARB_clip_control")
+// clang-format on
+
 /// Looks one function up by its full name ("glClear"); null where there is none.
 using Loader = std::function<void*(const char*)>;
 
@@ -112,9 +118,14 @@ struct Functions {
 #define UNSHOT_GL_MEMBER(TYPE, NAME) PFNGL##TYPE##PROC NAME = nullptr;
   UNSHOT_GL_FUNCTIONS(UNSHOT_GL_MEMBER)
 #undef UNSHOT_GL_MEMBER
+#define UNSHOT_GL_MEMBER(TYPE, NAME, VERSION, EXTENSION) PFNGL##TYPE##PROC NAME = nullptr;
+  UNSHOT_GL_OPTIONAL_FUNCTIONS(UNSHOT_GL_MEMBER)
+#undef UNSHOT_GL_MEMBER
 };
 
-/// Loads every function. Throws Error kEnvironment that names those that are missing.
+/// Loads every function, those of later versions where the version or an extension of the current context
+/// promises them (loaders give addresses for others too). Throws Error kEnvironment that names those of
+/// OpenGL 3.3 that are missing.
 Functions loadFunctions(const Loader& load);
 
 }  // namespace unshot::gl

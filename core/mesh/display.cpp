@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/point_tree.h"
+#include "mesh/air.h"
 #include "mesh/weld.h"
 #include "scene/triangulate.h"
 
@@ -25,7 +26,9 @@ class DisplayMaker {
   void run() {
     findPoints();
     makeRings();
-    joinCorners();
+    const std::vector<PieceEdge> edges = pieceEdges();
+    joinAir(mesh_, edges, points_);
+    joinCorners(edges);
     numberVertices();
     makeTriangles();
     makeWeights();
@@ -141,31 +144,28 @@ class DisplayMaker {
     return c;
   }
 
-  struct RingEdge {
-    std::uint32_t low, high;        // points
-    std::uint32_t at_low, at_high;  // ring corners there
-    std::uint32_t surface;
-    bool outline;
-  };
-
-  // Ring corners are one vertex where pieces share an edge across which light is continuous: within a surface
-  // an edge that is not outline, between surfaces an edge of a smooth pair. Side by side: group 2 corner +
-  // back.
-  void joinCorners() {
-    std::vector<RingEdge> edges;
+  std::vector<PieceEdge> pieceEdges() const {
+    std::vector<PieceEdge> edges;
     edges.reserve(ring_.size());
     for (std::uint32_t p = 0; p < mesh_.pieces.size(); ++p) {
       for (std::uint32_t k = ring_start_[p]; k < ring_start_[p + 1]; ++k) {
         const std::uint32_t next = k + 1 < ring_start_[p + 1] ? k + 1 : ring_start_[p];
         const bool forward = ring_[k].point < ring_[next].point;
         const std::uint32_t low = forward ? k : next, high = forward ? next : k;
-        edges.push_back(
-            {ring_[low].point, ring_[high].point, low, high, piece_surface_[p], ring_[k].outline});
+        edges.push_back({ring_[low].point, ring_[high].point, low, high, p, piece_surface_[p],
+                         ring_[k].outline, forward});
       }
     }
-    std::sort(edges.begin(), edges.end(), [](const RingEdge& a, const RingEdge& b) {
+    std::sort(edges.begin(), edges.end(), [](const PieceEdge& a, const PieceEdge& b) {
       return std::tie(a.low, a.high) < std::tie(b.low, b.high);
     });
+    return edges;
+  }
+
+  // Ring corners are one vertex where pieces share an edge across which light is continuous: within a surface
+  // an edge that is not outline, between surfaces an edge of a smooth pair. Side by side: group 2 corner +
+  // back.
+  void joinCorners(const std::vector<PieceEdge>& edges) {
     std::set<std::tuple<std::uint32_t, std::uint32_t, bool>> smooth;
     for (const SmoothPair& pair : pairs_)
       smooth.emplace(std::min(pair.a, pair.b), std::max(pair.a, pair.b), pair.flipped);
@@ -174,7 +174,7 @@ class DisplayMaker {
     for (std::size_t i = 0; i < edges.size(); ++i) {
       for (std::size_t j = i + 1;
            j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high; ++j) {
-        const RingEdge &a = edges[i], &b = edges[j];
+        const PieceEdge &a = edges[i], &b = edges[j];
         if (a.surface == b.surface) {
           if (!a.outline && !b.outline) joinEdge(a, b, 0);
           continue;
@@ -186,7 +186,7 @@ class DisplayMaker {
     }
   }
 
-  void joinEdge(const RingEdge& a, const RingEdge& b, std::uint32_t flip) {
+  void joinEdge(const PieceEdge& a, const PieceEdge& b, std::uint32_t flip) {
     for (std::uint32_t back = 0; back < 2; ++back) {
       group_[find(2 * a.at_low + back)] = find(2 * b.at_low + (back ^ flip));
       group_[find(2 * a.at_high + back)] = find(2 * b.at_high + (back ^ flip));

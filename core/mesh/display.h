@@ -9,8 +9,8 @@
 
 namespace unshot {
 
-/// Fills vertices, triangle_vertices, triangle_element and vertex_from_elements. Points closer than
-/// `weld_distance` are one.
+/// Fills patch_air, vertices, triangle_vertices, triangle_element and vertex_from_elements. Points closer
+/// than `weld_distance` are one.
 void makeDisplay(Mesh& mesh, std::span<const SmoothPair> smooth_pairs, double weld_distance);
 
 }  // namespace unshot

@@ -153,6 +153,9 @@ struct Mesh {
   std::vector<double> element_area;          ///< one per element [m^2]
   std::vector<std::uint32_t> patch_side;     ///< one per patch
   std::vector<double> patch_area;            ///< one per patch: the sum over its elements [m^2]
+  /// One per patch: equal where patches face the same air as far as the mesh shows it (mesh/air.h), an index
+  /// of one of them.
+  std::vector<std::uint32_t> patch_air;
 
   // Display: triangles of both sides, each wound counter-clockwise as seen from its side.
   std::vector<Vertex> vertices;

@@ -52,29 +52,4 @@ struct CameraCandidate {
 
 std::vector<CameraCandidate> cameraCandidates(const Bounds& bounds, const AutomaticCameraOptions& options);
 
-/// What the judge knows of a side.
-struct SideLook {
-  double luminance = 0;  ///< mean B over its elements
-  double area = 0;
-  bool emits = false;
-};
-std::vector<SideLook> sideLooks(const Snapshot& snapshot);
-
-/// What a view shows; the parts are in 0..1.
-struct ViewFigures {
-  double covered = 0;  ///< pixels with something in them, of the frame
-  double lit = 0;  ///< pixels with something that is not dark for this scene, of those where the bounds are
-  double variety = 0;   ///< effective number of sides in view, on a log scale
-  double seen = 0;      ///< area of the sides in view, of all
-  double contrast = 0;  ///< spread of the light
-  double lamps = 0;     ///< lamps in view
-  double backs = 0;     ///< of the covered pixels: back sides (lamps aside), seldom meant to be seen
-  double blocked = 0;   ///< pixels with something right before the eye
-  double cut = 0;  ///< of the covered pixels: sides that the frame cuts off, where background shows between
-};
-
-/// `ids`: one per pixel, side + 1 or 0, lowest row first.
-ViewFigures judgeView(std::span<const std::uint32_t> ids, int width, int height, const Camera& camera,
-                      const Mesh& mesh, std::span<const SideLook> looks);
-
 }  // namespace unshot

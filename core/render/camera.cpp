@@ -9,7 +9,9 @@
 namespace unshot {
 namespace {
 
-constexpr double kNearestDepth = 1e-4;  // of the farthest: what 24 bits of depth can still sort
+// Of the farthest depth: what 24 bits can still sort; floats from 1 down to 0 sort anything.
+constexpr double kNearestDepth = 1e-4;
+constexpr double kNearestReversedDepth = 1e-6;
 
 glm::dvec3 anyNormalTo(const glm::dvec3& v) {
   const glm::dvec3 axis = std::abs(v.x) < std::abs(v.z) ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
@@ -39,19 +41,21 @@ ViewBasis viewBasis(const Camera& camera) {
   return basis;
 }
 
-glm::mat4 viewProjection(const Camera& camera, double aspect, const Bounds& bounds,
-                         const FrameWindow& window) {
+glm::mat4 viewProjection(const Camera& camera, double aspect, const Bounds& bounds, const FrameWindow& window,
+                         DepthRange depth) {
   const ViewBasis basis = viewBasis(camera);
   double nearest = std::numeric_limits<double>::max();
   double farthest = 0;
   for (int k = 0; k < 8; ++k) {
-    const double depth = glm::dot(bounds.corner(k) - camera.eye, basis.forward);
-    nearest = std::min(nearest, depth);
-    farthest = std::max(farthest, depth);
+    const double along = glm::dot(bounds.corner(k) - camera.eye, basis.forward);
+    nearest = std::min(nearest, along);
+    farthest = std::max(farthest, along);
   }
   if (farthest <= 0) farthest = 1;  // all is behind the eye: any planes will do
   const double far_plane = 1.001 * farthest;
-  const double near_plane = std::max(0.999 * nearest, kNearestDepth * farthest);
+  const bool reversed = depth == DepthRange::kReversed;
+  const double near_plane =
+      std::max(0.999 * nearest, (reversed ? kNearestReversedDepth : kNearestDepth) * farthest);
 
   glm::dmat4 view(1.0);
   for (int i = 0; i < 3; ++i) {
@@ -67,9 +71,13 @@ glm::mat4 viewProjection(const Camera& camera, double aspect, const Bounds& boun
   glm::dmat4 projection(0.0);
   projection[0][0] = 1 / tan_x;
   projection[1][1] = 1 / tan_y;
-  projection[2][2] = (far_plane + near_plane) / (near_plane - far_plane);
   projection[2][3] = -1;
-  projection[3][2] = 2 * far_plane * near_plane / (near_plane - far_plane);
+  if (reversed) {
+    projection[3][2] = near_plane;  // depth = near / distance: the far plane is at infinity
+  } else {
+    projection[2][2] = (far_plane + near_plane) / (near_plane - far_plane);
+    projection[3][2] = 2 * far_plane * near_plane / (near_plane - far_plane);
+  }
 
   // The window of the frame becomes the whole of clip space.
   const glm::dvec2 size = window.max - window.min;

@@ -36,11 +36,17 @@ struct FrameWindow {
   glm::dvec2 min{0.0}, max{1.0};
 };
 
+/// How depth lies in clip space.
+enum class DepthRange {
+  kUsual,     ///< -1 at the near plane, 1 at the far one
+  kReversed,  ///< 1 at the near plane, towards 0 far away: floats sort at any distance as finely as near by
+};
+
 /// Scene frame to clip coordinates for `window` of a picture of this aspect (width / height). Near and far
-/// planes hold everything inside `bounds` that is in front of the eye (from 1/10,000 of the depth on), at any
-/// scale.
+/// planes hold everything inside `bounds` that is in front of the eye, at any scale: from 1/10,000 of the
+/// depth on, with reversed depth from a millionth on.
 glm::mat4 viewProjection(const Camera& camera, double aspect, const Bounds& bounds,
-                         const FrameWindow& window = {});
+                         const FrameWindow& window = {}, DepthRange depth = DepthRange::kUsual);
 
 /// A camera outside `bounds` that looks along `direction` with the whole of the bounds in the frame, as close
 /// as possible. `fill` is the part of the frame used, 0..1.

@@ -12,6 +12,7 @@ namespace {
 constexpr double kBright = 0.97;        // of the pixels are darker than what is shown near white
 constexpr double kWhite = 0.9;          // what those are shown as
 constexpr double kMiddleGrey = 0.2;     // what the logarithmic mean would be shown as
+constexpr double kMostLift = 3;         // over the scale that shows the bright ones so
 constexpr double kDarkest = 1e-3;       // of the bright ones: darker ones count as this
 constexpr double kLargestScale = 1e36;  // stays a float, and so does its reciprocal
 
@@ -40,7 +41,8 @@ double automaticExposure(std::span<const glm::vec4> pixels) {
   const double log_mean = std::exp(log_sum / static_cast<double>(values.size()));
   const double scale_bright = kWhite / bright;
   const double scale_middle = kMiddleGrey / log_mean;
-  const double scale = std::max(scale_bright, std::sqrt(scale_bright) * std::sqrt(scale_middle));
+  const double lifted = std::sqrt(scale_bright) * std::sqrt(scale_middle);
+  const double scale = std::clamp(lifted, scale_bright, kMostLift * scale_bright);
   return std::clamp(scale, 1 / kLargestScale, kLargestScale);
 }
 

@@ -3,7 +3,7 @@
 // The scale is found from the luminances of the reflecting surfaces in view: background, black and the lamps
 // themselves do not count (unless there is nothing else). The brightest of them come out near white; a
 // picture of high contrast is lifted half of the way (in stops) towards showing its logarithmic mean as
-// middle grey.
+// middle grey, but at most by a factor of 3: what is bright in a dim room keeps its colours.
 #pragma once
 
 #include <glm/vec4.hpp>

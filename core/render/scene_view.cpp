@@ -215,14 +215,14 @@ void SceneView::drawLinear(const Camera& camera, double aspect, const FrameWindo
   const DisplayMode& mode = displayMode(options.display);
   setPassState(fn, true);
   const GLfloat nothing[4] = {0, 0, 0, kBackgroundPixel};
-  const GLfloat farthest = 1;
+  const DepthSetup depth(fn);
   fn.ClearBufferfv(GL_COLOR, 0, nothing);
-  fn.ClearBufferfv(GL_DEPTH, 0, &farthest);
+  fn.ClearBufferfv(GL_DEPTH, 0, &depth.farthest);
   if (!mesh_ || triangle_index_count_ == 0) return;
 
   const gl::Program& program = display_program_;
   program.use();
-  const glm::mat4 matrix = viewProjection(camera, aspect, bounds_, window);
+  const glm::mat4 matrix = viewProjection(camera, aspect, bounds_, window, depth.range);
   const glm::vec3 eye(camera.eye);
   fn.UniformMatrix4fv(program.uniform("view_projection"), 1, GL_FALSE, glm::value_ptr(matrix));
   fn.Uniform3fv(program.uniform("eye"), 1, glm::value_ptr(eye));

@@ -2,6 +2,13 @@
 
 namespace unshot {
 
+DepthSetup::DepthSetup(const gl::Functions& fn) {
+  if (!fn.ClipControl) return;
+  range = DepthRange::kReversed;
+  format = GL_DEPTH_COMPONENT32F;
+  farthest = 0;
+}
+
 LinearTarget::LinearTarget(gl::Context& context, int width, int height)
     : colour_(context), depth_(context), framebuffer_(context), width_(width), height_(height) {
   const gl::Functions& fn = context.functions();
@@ -12,7 +19,7 @@ LinearTarget::LinearTarget(gl::Context& context, int width, int height)
   fn.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   fn.BindTexture(GL_TEXTURE_2D, 0);
   fn.BindRenderbuffer(GL_RENDERBUFFER, depth_.id());
-  fn.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, width, height);
+  fn.RenderbufferStorage(GL_RENDERBUFFER, DepthSetup(fn).format, width, height);
   fn.BindRenderbuffer(GL_RENDERBUFFER, 0);
   fn.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
   fn.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.id(), 0);
@@ -48,6 +55,8 @@ StateGuard::~StateGuard() {
   fn_.BindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read_framebuffer_));
   fn_.Viewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
   fn_.Disable(GL_DEPTH_TEST);
+  fn_.DepthFunc(GL_LESS);
+  if (fn_.ClipControl) fn_.ClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
   fn_.Disable(GL_CULL_FACE);
   fn_.Disable(GL_CLIP_DISTANCE0);
   fn_.BindVertexArray(0);
@@ -68,7 +77,9 @@ void setPassState(const gl::Functions& fn, bool depth_and_culling) {
     return;
   }
   fn.Enable(GL_DEPTH_TEST);
-  fn.DepthFunc(GL_LEQUAL);
+  const bool reversed = DepthSetup(fn).range == DepthRange::kReversed;
+  if (reversed) fn.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  fn.DepthFunc(reversed ? GL_GEQUAL : GL_LEQUAL);
   fn.DepthMask(GL_TRUE);
   fn.DepthRange(0, 1);
   fn.Enable(GL_CULL_FACE);

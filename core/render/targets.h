@@ -5,8 +5,19 @@
 #include <vector>
 
 #include "gl/objects.h"
+#include "render/camera.h"
 
 namespace unshot {
+
+/// Depth in this context: reversed floats where the range of depth can be chosen (OpenGL 4.5 or
+/// ARB_clip_control), else 24 bits from near to far.
+struct DepthSetup {
+  DepthRange range = DepthRange::kUsual;
+  GLenum format = GL_DEPTH_COMPONENT24;  ///< of a renderbuffer
+  GLfloat farthest = 1;                  ///< to clear with
+
+  explicit DepthSetup(const gl::Functions& fn);
+};
 
 /// Linear RGB and class (float) with depth: what is drawn before exposure.
 class LinearTarget {
@@ -47,7 +58,7 @@ class StateGuard {
   GLint viewport_[4] = {};
 };
 
-/// Sets all fixed-function state that a pass without blending needs.
+/// Sets all fixed-function state that a pass without blending needs; depth as DepthSetup says.
 void setPassState(const gl::Functions& fn, bool depth_and_culling);
 
 }  // namespace unshot

@@ -92,7 +92,7 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl) {
   cpu_setup = cpuSeconds() - cpu_before_setup;
   state = std::make_unique<RadiosityState>(*transport, perPatch(*mesh, &Side::emission),
                                            perPatch(*mesh, &Side::reflectance));
-  ambient = std::make_unique<AmbientTerm>(mesh->patch_count);
+  ambient = std::make_unique<AmbientTerm>(mesh->patch_count, mesh->patch_air);
   solve_start = wallSeconds();
   if (state->emittedPower() <= 0) {
     measures.unshot_fraction = 0;

@@ -5,8 +5,10 @@
 
 namespace unshot {
 
-AmbientTerm::AmbientTerm(std::size_t patches) : group_(patches), noted_(patches, 0) {
+AmbientTerm::AmbientTerm(std::size_t patches, std::span<const std::uint32_t> air)
+    : group_(patches), noted_(patches, 0) {
   std::iota(group_.begin(), group_.end(), 0u);
+  for (std::uint32_t q = 0; q < air.size(); ++q) group_[find(q)] = find(air[q]);
 }
 
 std::uint32_t AmbientTerm::find(std::uint32_t q) const {

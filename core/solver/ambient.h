@@ -2,10 +2,11 @@
 // for display only.
 //
 // Per channel and per group of patches known to see each other, sum A U / sum A / (1 - mean rho), means
-// weighted by area. Groups are joined as columns show who sees whom, so a room that no light has reached gets
-// nothing.
+// weighted by area. Groups begin as the mesh shows who faces the same air, and are joined as columns show who
+// sees whom, so a room that no light has reached gets nothing.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "formfactor/transport.h"
@@ -15,7 +16,9 @@ namespace unshot {
 
 class AmbientTerm {
  public:
-  explicit AmbientTerm(std::size_t patches);
+  /// `air`: the groups known beforehand (Mesh::patch_air), one per patch: the index of a patch of its group.
+  /// Empty: none.
+  explicit AmbientTerm(std::size_t patches, std::span<const std::uint32_t> air = {});
 
   /// Notes who receives light from patch q, which has just shot (so that its column is at hand).
   void sees(std::uint32_t q, Transport& transport);
