@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <limits>
 
 #include "base/clock.h"
@@ -124,9 +125,10 @@ void Viewer::key(int key, bool ctrl) {
   if (const Action* action = actionOfKey(key, ctrl)) perform(action->key);
 }
 
-/// Shown, and remembered for the exit code where nobody may be looking.
+/// Shown, said on the terminal, and remembered for the exit code where nobody may be looking.
 void Viewer::fail(const Error& error) {
   showError(error);
+  std::cerr << "unshot: " << error.fullText() << std::endl;
   if (exit_code_ == 0 && (!script_.empty() || state_->epoch == 0)) exit_code_ = exitCodeOf(error.kind());
 }
 
