@@ -35,6 +35,7 @@ class ViewArguments {
                                  : std::filesystem::path(scene_);
     setup.bundled = bundledScenes();
     setup.options = solver_.options();
+    setup.options.draft_first = true;
     setup.settings.view.display = display_;
     if (!script_.empty()) {
       setup.script = readScript(script_);

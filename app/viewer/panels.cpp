@@ -85,6 +85,9 @@ PhaseLook lookOf(const SessionState& state) {
     case SessionPhase::kLoading:
       return {"Loading", {0.95f, 0.75f, 0.3f, 1}};
     case SessionPhase::kRunning:
+      if (state.measures.drafts > 0 && state.facts &&
+          state.measures.unshot_fraction <= state.facts->options.error)
+        return {"Refining form factors", {0.98f, 0.72f, 0.25f, 1}};
       return {"Shooting", {0.98f, 0.72f, 0.25f, 1}};
     case SessionPhase::kPaused:
       return {"Paused", {0.6f, 0.7f, 0.85f, 1}};
@@ -337,6 +340,13 @@ void figuresSection(Viewer& viewer) {
   if (state.drawn > 0) columns += " from " + countText(state.drawn);
   line(state.drawn > 0 ? "Columns, hemicubes" : "Columns", columns,
        "Columns of form factors computed, and from how many hemicubes; the others were kept from before");
+  const std::uint64_t drafts = state.measures.drafts + state.measures.refined;
+  if (drafts > 0) {
+    line("Drafts refined", countText(state.measures.refined) + " of " + countText(drafts),
+         "Patches that see something near shoot one hemicube first, so that the whole picture stands soon; "
+         "then each "
+         "is split as it should be, and what it has shot is corrected");
+  }
   line("Patches, elements", countText(facts.patches) + ", " + countText(facts.elements),
        "Patches shoot, elements receive; both count lit sides only");
   line("Time", durationText(state.measures.seconds) + ", CPU " + durationText(state.measures.cpu_seconds),

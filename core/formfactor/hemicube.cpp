@@ -79,20 +79,12 @@ class Hemicube final : public FormFactorMethod {
   std::uint64_t drawn() const override { return drawn_; }
   std::string note() const override { return note_; }
 
-  Column column(std::uint32_t q) override {
-    const std::uint32_t side_index = mesh_.patch_side[q];
-    const Side& side = mesh_.sides[side_index];
-    begin();
-    const Region whole = regionOfPatch(mesh_, side.surface, q - side.first_patch);
-    shoot(whole, side, kMostSplits, 1 / whole.area);
-    Column out;
-    takeReceived([&](std::uint32_t e, double f) {
-      out.receiver.push_back(e);
-      out.k.push_back(static_cast<float>(f * mesh_.patch_area[q] / mesh_.element_area[e]));
-    });
-    out.escape = escape_;
-    closeColumn(q, out);
-    return out;
+  Column column(std::uint32_t q) override { return shotBy(q, false); }
+
+  // One picture for the whole patch, however near its view is. On the Cornell box at 10,000 elements a
+  // solution of drafts alone has an error of 2.3 % instead of 1.8 %, in a fifth of the time.
+  Column draft(std::uint32_t q) override {
+    return shotBy(q, mesh_.sides[mesh_.patch_side[q]].emission == glm::dvec3(0.0));
   }
 
   Row row(std::uint32_t v) override {
@@ -103,6 +95,7 @@ class Hemicube final : public FormFactorMethod {
     Region point;
     point.surface = side.surface;
     point.area = mesh_.element_area[v];
+    drafting_ = false;
     point.sample = mesh_.surfaces[side.surface].chart(shape.centre);
     shoot(point, side, 0, 1 / point.area);
     std::vector<double> per_patch(mesh_.patch_count, 0.0);
@@ -120,6 +113,25 @@ class Hemicube final : public FormFactorMethod {
   }
 
  private:
+  Column shotBy(std::uint32_t q, bool draft) {
+    const std::uint32_t side_index = mesh_.patch_side[q];
+    const Side& side = mesh_.sides[side_index];
+    begin();
+    const Region whole = regionOfPatch(mesh_, side.surface, q - side.first_patch);
+    drafting_ = draft;
+    cut_short_ = false;
+    shoot(whole, side, draft ? 0 : kMostSplits, 1 / whole.area);
+    Column out;
+    out.draft = cut_short_;
+    takeReceived([&](std::uint32_t e, double f) {
+      out.receiver.push_back(e);
+      out.k.push_back(static_cast<float>(f * mesh_.patch_area[q] / mesh_.element_area[e]));
+    });
+    out.escape = escape_;
+    closeColumn(q, out);
+    return out;
+  }
+
   // OpenGL draws, but where a software rasteriser would have to chew through thousands of triangles a
   // picture: its cost grows with all of them (36 ms at 210,000), a ray's with their logarithm (1 to 3 ms).
   void chooseView(const FormFactorSetup& setup) {
@@ -242,13 +254,15 @@ class Hemicube final : public FormFactorMethod {
     const std::vector<double>& delta = deltas(layout);
     const HemicubeView::Result seen = view_->look(frameOf(region, side), layout);
     ++drawn_;
-    if (splits > 0 && std::sqrt(region.area) > 1.4 * floor_) {
+    if (std::sqrt(region.area) > 1.4 * floor_ && (splits > 0 || drafting_)) {
       const double limit =
           std::sqrt(region.area) / (emits ? kEmitterSplitFraction : kSplitFraction) / seen.far_distance;
       double near = 0;
       for (std::size_t k = 0; k < delta.size(); ++k)
         near += static_cast<double>(seen.distance[k]) < limit ? delta[k] : 0.0;
-      if (near > kNearShare) {
+      if (near > kNearShare && splits == 0) {
+        cut_short_ = true;
+      } else if (near > kNearShare) {
         for (const Region& part : partsOf(mesh_, region)) shoot(part, side, splits - 1, per_area);
         return;
       }
@@ -318,6 +332,7 @@ class Hemicube final : public FormFactorMethod {
   std::vector<double> received_;        // per element, of the column in work
   std::vector<std::uint64_t> touched_;  // a bit per element: ascending order without sorting
   double escape_ = 0;
+  bool drafting_ = false, cut_short_ = false;  // whether a split is left out, and whether one was
   std::uint64_t drawn_ = 0;
 };
 

@@ -16,6 +16,7 @@ struct Column {
   std::vector<float> k;                 ///< K_vq
   double escape = 0;                    ///< share of q's light that meets no surface
   double defect = 0;                    ///< share lost (or, negative, gained) by approximation
+  bool draft = false;                   ///< FormFactorMethod::column has a better one
 
   template <class F>
   void forEach(F&& f) const {
@@ -43,6 +44,9 @@ class FormFactorMethod {
   virtual ReceiverKind receiverKind() const = 0;
   /// By shooting from patch q.
   virtual Column column(std::uint32_t q) = 0;
+  /// Column q sooner and less exactly, of the same energy; the column itself where the method has nothing
+  /// cheaper, or where it would show (emitters). The same at each call.
+  virtual Column draft(std::uint32_t q) { return column(q); }
   /// By gathering at receiver v.
   virtual Row row(std::uint32_t v) = 0;
   /// Pictures drawn so far (hemicubes), for reports; 0 where the method draws none.

@@ -10,24 +10,51 @@ Transport::Transport(std::unique_ptr<FormFactorMethod> method, Receivers receive
       receivers_(std::move(receivers)),
       patch_area_(std::move(patch_area)),
       budget_(kept_bytes),
-      kept_(patch_area_.size()) {}
+      kept_(patch_area_.size()),
+      quality_(patch_area_.size(), Quality::kUnused) {}
 
 const Column& Transport::column(std::uint32_t q) {
   if (kept_[q]) return *kept_[q];
   if (q == passing_patch_) return passing_;
+  return keep(q, compute(q));
+}
+
+// A column that found no room is computed again as it was used before.
+Column Transport::compute(std::uint32_t q) {
   ++computed_;
-  Column fresh = method_->column(q);
-  // The first columns asked for are the brightest patches: they are asked for most often, so none gives way
-  // to a later one.
-  if (kept_bytes_ + fresh.bytes() <= budget_) {
-    kept_bytes_ += fresh.bytes();
+  const bool draft = quality_[q] == Quality::kUnused ? drafts_allowed_ : quality_[q] == Quality::kDraft;
+  Column column = draft ? method_->draft(q) : method_->column(q);
+  if (column.draft && quality_[q] == Quality::kUnused) ++draft_count_;
+  quality_[q] = column.draft ? Quality::kDraft : Quality::kFull;
+  return column;
+}
+
+// The first columns asked for are the brightest patches: they are asked for most often, so none gives way to
+// a later one.
+const Column& Transport::keep(std::uint32_t q, Column column) {
+  if (kept_bytes_ + column.bytes() <= budget_) {
+    kept_bytes_ += column.bytes();
     ++kept_count_;
-    kept_[q] = std::make_unique<Column>(std::move(fresh));
+    kept_[q] = std::make_unique<Column>(std::move(column));
     return *kept_[q];
   }
-  passing_ = std::move(fresh);
+  passing_ = std::move(column);
   passing_patch_ = q;
   return passing_;
+}
+
+std::pair<Column, const Column&> Transport::refine(std::uint32_t q) {
+  Column draft = column(q);
+  if (kept_[q]) {
+    kept_bytes_ -= kept_[q]->bytes();
+    --kept_count_;
+    kept_[q].reset();
+  }
+  if (passing_patch_ == q) passing_patch_ = kNone;
+  if (quality_[q] == Quality::kDraft) --draft_count_;
+  quality_[q] = Quality::kFull;
+  ++refined_;
+  return {std::move(draft), keep(q, compute(q))};
 }
 
 Row Transport::row(std::uint32_t v) {

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "formfactor/method.h"
@@ -23,6 +24,15 @@ class Transport {
 
   /// Column q; valid until the next call. The last one asked for is always at hand.
   const Column& column(std::uint32_t q);
+  /// Whether columns not yet at hand are drafts where the method has them (FormFactorMethod::draft); at first
+  /// not.
+  void allowDrafts(bool allowed) { drafts_allowed_ = allowed; }
+  /// Whether column q as used so far is a draft.
+  bool isDraft(std::uint32_t q) const { return quality_[q] == Quality::kDraft; }
+  std::size_t draftCount() const { return draft_count_; }
+  std::uint64_t refined() const { return refined_; }  ///< drafts replaced so far
+  /// Replaces the draft of q: first = the draft, second = the column from now on.
+  std::pair<Column, const Column&> refine(std::uint32_t q);
   Row row(std::uint32_t v);
   /// out = K d, channel by channel. `d` one per patch, `out` one per receiver.
   void product(std::span<const glm::dvec3> d, std::span<glm::dvec3> out);
@@ -33,6 +43,11 @@ class Transport {
   std::size_t keptColumns() const { return kept_count_; }
 
  private:
+  enum class Quality : char { kUnused, kDraft, kFull };
+
+  Column compute(std::uint32_t q);
+  const Column& keep(std::uint32_t q, Column column);
+
   std::unique_ptr<FormFactorMethod> method_;
   Receivers receivers_;
   std::vector<double> patch_area_;
@@ -41,7 +56,10 @@ class Transport {
   std::vector<std::unique_ptr<Column>> kept_;
   Column passing_;  // the last column that found no room
   std::uint32_t passing_patch_ = kNone;
-  std::uint64_t computed_ = 0;
+  std::uint64_t computed_ = 0, refined_ = 0;
+  std::vector<Quality> quality_;  // of the columns used so far
+  std::size_t draft_count_ = 0;
+  bool drafts_allowed_ = false;
 };
 
 }  // namespace unshot

@@ -16,6 +16,8 @@ struct Measures {
   double cpu_seconds = 0;      ///< CPU time since meshing began, without rests
   std::uint64_t shots = 0;     ///< columns used
   std::uint64_t rows = 0;      ///< columns and rows computed (not taken from those kept)
+  std::uint64_t drafts = 0;    ///< columns in use that are still drafts (SolveOptions::draft_first)
+  std::uint64_t refined = 0;   ///< drafts that were replaced
   double unshot_fraction = 1;  ///< sum A |U| / sum A E over patches and channels
 };
 

@@ -73,6 +73,7 @@ struct Solve::Impl {
   void checkLimits();
   void checkStagnation();
   void record();
+  void refineBrightest();
 };
 
 void Solve::Impl::prepare(const std::function<gl::Context&()>& gl) {
@@ -119,6 +120,7 @@ void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl) {
   Receivers receivers = makeReceivers(*mesh, method->receiverKind());
   transport = std::make_unique<Transport>(std::move(method), std::move(receivers), mesh->patch_area,
                                           options.kept_bytes);
+  transport->allowDrafts(options.draft_first);
 }
 
 void Solve::Impl::chooseMode(const std::string& key) {
@@ -151,6 +153,8 @@ void Solve::Impl::measure() {
   measures.seconds = measured_wall - solve_start;
   measures.cpu_seconds = measured_cpu - cpu_start - cpu_setup;
   measures.rows = transport->computed();
+  measures.drafts = transport->draftCount();
+  measures.refined = transport->refined();
   const double emitted = state->emittedPower();
   if (!std::isfinite(emitted)) {
     measures.unshot_fraction = emitted - emitted;  // not a number, rather than a share of infinity
@@ -164,7 +168,7 @@ void Solve::Impl::measure() {
 void Solve::Impl::checkLimits() {
   if (!std::isfinite(measures.unshot_fraction)) {
     fail(ErrorKind::kInternal, "a value is no longer finite", "another --mode or --form-factors");
-  } else if (measures.unshot_fraction <= options.error) {
+  } else if (measures.unshot_fraction <= options.error && measures.drafts == 0) {
     stop(SolveState::kConverged, "error");
   } else if (options.max_shots && measures.shots >= *options.max_shots) {
     stop(SolveState::kLimit, "max_shots");
@@ -206,9 +210,27 @@ void Solve::Impl::checkStagnation() {
 
 // A curve needs no more points than a plot has pixels: each is a hundredth further than the last.
 void Solve::Impl::record() {
-  const std::uint64_t last = history.back().measures.shots;
-  const bool ended = progress_state != SolveState::kRunning && measures.shots > last;
-  if (ended || measures.shots >= last + std::max<std::uint64_t>(1, last / 100)) history.push_back({measures});
+  const auto steps = [](const Measures& m) { return m.shots + m.refined; };
+  const std::uint64_t last = steps(history.back().measures), now = steps(measures);
+  const bool ended = progress_state != SolveState::kRunning && now > last;
+  if (ended || now >= last + std::max<std::uint64_t>(1, last / 100)) history.push_back({measures});
+}
+
+// The draft whose patch has shot the most power is replaced; columns that are new from now on are none.
+void Solve::Impl::refineBrightest() {
+  transport->allowDrafts(false);
+  std::uint32_t brightest = kNone;
+  double most = -1;
+  for (std::uint32_t q = 0; q < state->patchCount(); ++q) {
+    if (!transport->isDraft(q)) continue;
+    const glm::dvec3& shot = state->shot()[q];
+    const double power = state->area()[q] * (std::abs(shot.x) + std::abs(shot.y) + std::abs(shot.z));
+    if (power <= most) continue;
+    most = power;
+    brightest = q;
+  }
+  const auto [draft, column] = transport->refine(brightest);
+  state->replaceColumn(brightest, draft, column);
 }
 
 Solve::Solve(Scene scene, SolveOptions options, std::function<gl::Context&()> gl)
@@ -223,11 +245,14 @@ void Solve::step() {
   if (s.progress_state != SolveState::kRunning) return;
   s.wakeClocks();
   bool nothing_left = false;
-  if (const auto shooter = s.mode->step(*s.state, *s.transport)) {
+  if (s.measures.drafts > 0 && s.measures.unshot_fraction <= s.options.error) {
+    s.refineBrightest();
+  } else if (const auto shooter = s.mode->step(*s.state, *s.transport)) {
     ++s.measures.shots;
     s.ambient->sees(*shooter, *s.transport);
   } else {
-    nothing_left = true;
+    nothing_left = s.measures.drafts == 0;
+    if (!nothing_left) s.refineBrightest();
   }
   s.measure();
   s.checkLimits();

@@ -29,6 +29,10 @@ struct SolveOptions {
   std::optional<double> max_seconds;
   std::optional<std::uint64_t> max_shots;
   std::uint64_t seed = 1;
+  /// Solves with drafts of the form factors first, where the method has them, then replaces them one by one,
+  /// while the solution stays up to date: the first whole picture in a fraction of the time, the end a little
+  /// later.
+  bool draft_first = false;
   std::uint32_t hemicube_resolution = 0;          ///< pixels along the top face; 0: chosen
   std::size_t kept_bytes = std::size_t{1} << 30;  ///< memory for kept columns of K [bytes]
 };
@@ -72,8 +76,9 @@ class Solve {
   Solve(const Solve&) = delete;
   Solve& operator=(const Solve&) = delete;
 
-  /// One step of the iteration mode (a shot, or a part of a sweep). Does nothing once state() is not
-  /// kRunning. A step takes milliseconds to a few tens of them, so that limits and interruption act soon.
+  /// One step of the iteration mode (a shot, or a part of a sweep), or one draft replaced. Does nothing once
+  /// state() is not kRunning. A step takes milliseconds to a few tens of them, so that limits and
+  /// interruption act soon.
   void step();
 
   /// Another iteration mode, which goes on from what was shot and received; columns at hand stay. It does not

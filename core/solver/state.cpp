@@ -30,10 +30,8 @@ glm::dvec3 RadiosityState::takeEmission(std::uint32_t q, const glm::dvec3& d) {
   return taken;
 }
 
-void RadiosityState::shoot(std::uint32_t q, const glm::dvec3& d, const Column& column) {
+void RadiosityState::receive(std::uint32_t q, const glm::dvec3& d, const Column& column) {
   const Receivers& receivers = transport_.receivers();
-  shot_[q] += d;
-  unshot_[q] -= d;
   column.forEach([&](std::uint32_t v, double k) {
     const glm::dvec3 received = k * d;
     irradiance_[v] += received;
@@ -42,13 +40,23 @@ void RadiosityState::shoot(std::uint32_t q, const glm::dvec3& d, const Column& c
       unshot_[share.patch] += share.area / area_[share.patch] * reflectance_[share.patch] * received;
     }
   });
-  const glm::dvec3 emitted = takeEmission(q, d);
-  if (emitted != glm::dvec3(0.0)) {
-    ++emission_shots_;
-    column.forEach([&](std::uint32_t v, double k) { direct_[v] += k * emitted; });
-  }
   escaped_power_ += column.escape * area_[q] * sumOfChannels(d);
   defect_power_ += column.defect * area_[q] * sumOfChannels(d);
+}
+
+void RadiosityState::shoot(std::uint32_t q, const glm::dvec3& d, const Column& column) {
+  shot_[q] += d;
+  unshot_[q] -= d;
+  receive(q, d, column);
+  const glm::dvec3 emitted = takeEmission(q, d);
+  if (emitted == glm::dvec3(0.0)) return;
+  ++emission_shots_;
+  column.forEach([&](std::uint32_t v, double k) { direct_[v] += k * emitted; });
+}
+
+void RadiosityState::replaceColumn(std::uint32_t q, const Column& before, const Column& after) {
+  receive(q, shot_[q], after);
+  receive(q, -shot_[q], before);
 }
 
 double RadiosityState::unshotPower() const {

@@ -29,6 +29,9 @@ class RadiosityState {
   /// S_q += d, H += K d; H_d += K of the emission in d: per channel, as much of d as is emission not yet shot
   /// (a negative d holds none). `column` is column q of the transport the state was made with.
   void shoot(std::uint32_t q, const glm::dvec3& d, const Column& column);
+  /// Better form factors for what q has shot: H += (K' - K) S_q, and U with it; S stays. `before` and `after`
+  /// are column q as it was and as it is. Not for emitters, whose direct light has no second form.
+  void replaceColumn(std::uint32_t q, const Column& before, const Column& after);
 
   const std::vector<glm::dvec3>& emission() const { return emission_; }        ///< E, one per patch [W/m^2]
   const std::vector<glm::dvec3>& reflectance() const { return reflectance_; }  ///< rho, one per patch
@@ -49,6 +52,7 @@ class RadiosityState {
   }  ///< shot and lost by approximation so far, over channels [W]
 
  private:
+  void receive(std::uint32_t q, const glm::dvec3& d, const Column& column);
   glm::dvec3 takeEmission(std::uint32_t q, const glm::dvec3& d);
 
   const Transport& transport_;

@@ -21,7 +21,7 @@ const std::string kTitle = "cornell_box \u2013 Unshot";
 
 // Solves for minutes, and each shot changes the picture of the unshot light, which has an exposure of its
 // own.
-const std::vector<std::string> kLongSolve{"--size", "500x360", "--display", "unshot", "--elements",
+const std::vector<std::string> kLongSolve{"--size", "640x360", "--display", "unshot", "--elements",
                                           "20000",  "--error", "1e-9",      "--keep", "0"};
 
 class Window : public testing::Test {

@@ -226,7 +226,8 @@ TEST(BuildMesh, LetsBackSidesEmitUnlessToldNotTo) {
 
 TEST(Grid, SaysWhereAScaleIsBeyondSinglePrecision) {
   const auto said = [](double edge) {
-    const Mesh mesh = buildMesh(rectangle(edge, edge), {.elements = 10, .element_size = {}, .emit_front_only = false});
+    const Mesh mesh =
+        buildMesh(rectangle(edge, edge), {.elements = 10, .element_size = {}, .emit_front_only = false});
     return std::count_if(mesh.diagnostics.begin(), mesh.diagnostics.end(),
                          [](const Diagnostic& d) { return d.code == "extreme-size"; });
   };
