@@ -83,7 +83,7 @@ Image8 toEightBits(const ImageF& image) {
 /// Paints what differs between the pictures, and the room around it that a longer figure takes.
 void mask(ImageF& reference, const std::vector<ImageF>& others, int scale) {
   const ImageF clean = reference;
-  const int left = 60 * scale, right = 6 * scale, above = 5 * scale;
+  const int left = 110 * scale, right = 30 * scale, above = 5 * scale;
   for (int y = 0; y < clean.height; ++y) {
     for (int x = 0; x < clean.width; ++x) {
       const auto at = static_cast<std::size_t>(y * clean.width + x);
