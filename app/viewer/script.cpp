@@ -66,7 +66,7 @@ std::vector<ScriptLine> parseScript(std::istream& text, const std::string& name)
 std::vector<ScriptLine> readScript(const std::filesystem::path& file) {
   std::ifstream stream(file);
   std::error_code error;
-  if (!stream || !std::filesystem::is_regular_file(file, error)) {
+  if (!stream || std::filesystem::is_directory(file, error)) {
     throw Error(ErrorKind::kInput, "the script cannot be read", file.string(), "the path of a text file");
   }
   return parseScript(stream, file.string());
