@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <iostream>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "cli/commands.h"
 #include "exit_codes.h"
@@ -10,6 +12,7 @@
 #include "render/display_modes.h"
 #include "solver/modes.h"
 #include "viewer/actions.h"
+#include "viewer/glfw_context.h"
 
 namespace unshot {
 namespace {
@@ -57,10 +60,13 @@ int runList() {
   printTable("Form-factor methods (--form-factors)", formFactorMethods(), "", available);
   printTable("Display modes (--display)", displayModes(), "", available);
   printTable("Exporters", exporters(), "--", available);
-  printTable("OpenGL providers (--gl)", gl::providers(), "", [](const gl::Provider& p) {
-    const std::string reason = p.unavailable();
-    return reason.empty() ? reason : reason + " (Debian: apt install " + std::string(p.packages) + ")";
-  });
+  std::vector<gl::Provider> providers(gl::providers().begin(), gl::providers().end());
+  providers.push_back(glfwProvider());
+  printTable(
+      "OpenGL providers (--gl)", std::span<const gl::Provider>(providers), "", [](const gl::Provider& p) {
+        const std::string reason = p.unavailable();
+        return reason.empty() ? reason : reason + " (Debian: apt install " + std::string(p.packages) + ")";
+      });
   printActions();
   std::cout << "Where a key is not given, or is auto, the program chooses and says what it chose.\n";
   return kExitDone;

@@ -40,6 +40,20 @@ std::string Glfw::lastError() {
   return glfwGetError(&text) != GLFW_NO_ERROR && text ? text : "";
 }
 
+gl::Provider glfwProvider() {
+  return {{"glfw", "GLFW", "the window of unshot view; needs a display"},
+          nullptr,
+          []() -> std::string {
+            try {
+              const Glfw glfw;
+              return {};
+            } catch (const Error& error) {
+              return error.what();
+            }
+          },
+          "libglfw3 libgl1"};
+}
+
 std::unique_ptr<GlfwContext> GlfwContext::create(int width, int height, const std::string& title,
                                                  bool visible) {
   GLFWwindow* window = createWindow(width, height, title, visible, GLFW_NATIVE_CONTEXT_API);

@@ -23,6 +23,9 @@ class Glfw {
   static std::string lastError();
 };
 
+/// The row of the viewer's window for a list of providers; it makes no context by itself.
+gl::Provider glfwProvider();
+
 /// A window with an OpenGL core context (3.3 or later), shown or hidden. Made and destroyed on the main
 /// thread; a hidden one may be current on another thread.
 class GlfwContext final : public gl::Context {
