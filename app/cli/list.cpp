@@ -62,11 +62,13 @@ int runList() {
   printTable("Exporters", exporters(), "--", available);
   std::vector<gl::Provider> providers(gl::providers().begin(), gl::providers().end());
   providers.push_back(glfwProvider());
-  printTable(
-      "OpenGL providers (--gl)", std::span<const gl::Provider>(providers), "", [](const gl::Provider& p) {
-        const std::string reason = p.unavailable();
-        return reason.empty() ? reason : reason + " (Debian: apt install " + std::string(p.packages) + ")";
-      });
+  printTable("OpenGL providers (--gl)", std::span<const gl::Provider>(providers), "",
+             [](const gl::Provider& p) {
+               const std::string reason = p.unavailable();
+               return reason.empty() || p.packages.empty()
+                          ? reason
+                          : reason + " (Debian: apt install " + std::string(p.packages) + ")";
+             });
   printActions();
   std::cout << "Where a key is not given, or is auto, the program chooses and says what it chose.\n";
   return kExitDone;

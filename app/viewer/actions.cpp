@@ -17,8 +17,7 @@
 namespace unshot {
 namespace {
 
-// --- Arguments
-// --------------------------------------------------------------------------------------------------
+// Arguments.
 
 /// A whole number from `low` to `high`.
 template <std::uint64_t low, std::uint64_t high>
@@ -100,8 +99,7 @@ std::string checkCamera(const std::string& text) {
   return {};
 }
 
-// --- What they do
-// -----------------------------------------------------------------------------------------------
+// What they do.
 
 void runCamera(Viewer& viewer, const std::string& text) {
   const std::vector<double> n = numbersOf(text);

@@ -51,7 +51,7 @@ gl::Provider glfwProvider() {
               return error.what();
             }
           },
-          "libglfw3 libgl1"};
+          ""};
 }
 
 std::unique_ptr<GlfwContext> GlfwContext::create(int width, int height, const std::string& title,

@@ -12,51 +12,14 @@
 #include "solver/modes.h"
 #include "viewer/plot.h"
 #include "viewer/theme.h"
+#include "viewer/widgets.h"
 
 namespace unshot {
 namespace {
 
 constexpr double kPanelWidth = 304;  // at scale 1 [px]
 
-void tooltip(std::string_view text) {
-  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-  ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(20 * ImGui::GetFontSize());
-  ImGui::TextUnformatted(text.data(), text.data() + text.size());
-  ImGui::PopTextWrapPos();
-  ImGui::EndTooltip();
-}
-
-/// A label on the left; what follows takes the rest of the line.
-void label(const char* text, std::string_view tip = {}) {
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(text);
-  tooltip(tip);
-  ImGui::SameLine(6.6f * ImGui::GetFontSize());
-  ImGui::SetNextItemWidth(-1);
-}
-
 bool section(const char* title) { return ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen); }
-
-/// A choice from a table: `shown` is what stands in the closed box, `current` the key that is marked. Returns
-/// the key chosen, or nothing.
-template <class Row>
-std::string choose(const char* id, std::span<const Row> table, const std::string& current,
-                   const std::string& shown, const char* automatic) {
-  std::string chosen;
-  if (!ImGui::BeginCombo(id, shown.c_str())) return chosen;
-  if (automatic) {
-    if (ImGui::Selectable("Automatic", current == "auto")) chosen = "auto";
-    tooltip(automatic);
-  }
-  for (const Row& row : table) {
-    const std::string title(row.info.title);
-    if (ImGui::Selectable(title.c_str(), current == row.info.key)) chosen = row.info.key;
-    tooltip(row.info.help);
-  }
-  ImGui::EndCombo();
-  return chosen;
-}
 
 template <class Row>
 std::string titleOf(std::span<const Row> table, const std::string& key) {
@@ -100,27 +63,6 @@ PhaseLook lookOf(const SessionState& state) {
   }
   return {"Failed", {0.95f, 0.4f, 0.35f, 1}};
 }
-
-void dot(const ImVec4& colour) {
-  const float size = ImGui::GetFontSize();
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  ImGui::GetWindowDrawList()->AddCircleFilled({at.x + 0.35f * size, at.y + 0.55f * size}, 0.28f * size,
-                                              ImGui::GetColorU32(colour));
-  ImGui::Dummy({0.8f * size, size});
-  ImGui::SameLine(0, 0);
-}
-
-/// Text on the left and text at the right border.
-void line(const char* name, const std::string& value, std::string_view tip = {}) {
-  ImGui::TextDisabled("%s", name);
-  tooltip(tip);
-  const float width = ImGui::CalcTextSize(value.c_str()).x;
-  ImGui::SameLine(std::max(ImGui::GetContentRegionMax().x - width, 6.6f * ImGui::GetFontSize()));
-  ImGui::TextUnformatted(value.c_str());
-}
-
-// --- Sections
-// -----------------------------------------------------------------------------------------------------
 
 void chooseScene(Viewer& viewer) {
   const SessionState& state = viewer.state();

@@ -62,8 +62,7 @@ void Viewer::setScale(double scale) {
   input();
 }
 
-// --- What happens
-// ---------------------------------------------------------------------------------------------
+// What happens.
 
 void Viewer::update(double now) {
   takeState(now);
@@ -83,6 +82,7 @@ void Viewer::takeState(double now) {
   if (another) {
     rate_points_.clear();
     error_.reset();
+    if (script_.empty()) exit_code_ = 0;
     if (setup_.title) setup_.title(state_->facts->scene_name + " \u2013 Unshot");
     frame_wanted_ = frame_wanted_ || state_->facts->scene_path != framed_scene_;
   }
@@ -199,8 +199,7 @@ void Viewer::resizeWindow(int width, int height) {
   if (setup_.resize) setup_.resize(width, height);
 }
 
-// --- The script
-// -----------------------------------------------------------------------------------------------
+// The script.
 
 bool Viewer::settled() const {
   return session_.sent() == state_->commands && state_->phase != SessionPhase::kLoading && !frame_wanted_ &&
@@ -238,8 +237,7 @@ void Viewer::runScript(double now) {
   }
 }
 
-// --- Frames
-// ---------------------------------------------------------------------------------------------------
+// Frames.
 
 double Viewer::nextUpdate() const {
   double next = notice_.empty() ? kNever : notice_until_;

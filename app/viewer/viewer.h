@@ -78,7 +78,7 @@ class Viewer {
   void setScale(double scale);
   bool closing() const { return closing_; }
   bool scriptDone() const { return script_at_ >= script_.size() && captures_.empty(); }
-  /// 0, or the exit code of the first thing that failed in the script or while opening the first scene.
+  /// 0, or the exit code of the first thing that failed in the script, or of why there is no scene.
   int exitCode() const { return exit_code_; }
 
   // For actions and panels.

@@ -1,0 +1,44 @@
+// Small pieces that the panels are made of.
+#pragma once
+
+#include <imgui.h>
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace unshot {
+
+/// Shown while the mouse is over the item before; nothing for an empty text.
+void tooltip(std::string_view text);
+
+/// A label on the left; what follows takes the rest of the line.
+void label(const char* text, std::string_view tip = {});
+
+/// A disc in the line's left end; text follows it.
+void dot(const ImVec4& colour);
+
+/// Text on the left and text at the right border.
+void line(const char* name, const std::string& value, std::string_view tip = {});
+
+/// A choice from a table: `shown` is what stands in the closed box, `current` the key that is marked. Returns
+/// the key chosen, or nothing.
+template <class Row>
+std::string choose(const char* id, std::span<const Row> table, const std::string& current,
+                   const std::string& shown, const char* automatic) {
+  std::string chosen;
+  if (!ImGui::BeginCombo(id, shown.c_str())) return chosen;
+  if (automatic) {
+    if (ImGui::Selectable("Automatic", current == "auto")) chosen = "auto";
+    tooltip(automatic);
+  }
+  for (const Row& row : table) {
+    const std::string title(row.info.title);
+    if (ImGui::Selectable(title.c_str(), current == row.info.key)) chosen = row.info.key;
+    tooltip(row.info.help);
+  }
+  ImGui::EndCombo();
+  return chosen;
+}
+
+}  // namespace unshot
