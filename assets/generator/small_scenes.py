@@ -13,7 +13,7 @@ def cornell_box():
         "Look: --eye 278,273,-800 --at 278,273,0 --fov 39.3077",
         "Source: our own modelling of the dimensions and colours that the Cornell Program of Computer Graphics published;",
         "those are facts. The light is set into a hole of the ceiling; the floor stops at the blocks that stand on it;",
-        "the left wall, whose four published corners are not in a plane, is two planar polygons.",
+        "the left wall, whose four published corners are not in a plane, is two planar polygons, smooth across their edge.",
         LICENCE])
     white = m.material("white", (.725, .71, .68))
     red = m.material("red", (.63, .065, .05))
@@ -51,8 +51,8 @@ def cornell_box():
     m.group("right_wall")
     m.polygon([back_right, front_right] + on_ceiling((0, 0), (0, 227), (0, 332), (0, 559.2)), green)
     m.group("left_wall")
-    m.polygon([front_left, back_left] + on_ceiling((556, 0)), red)
-    m.polygon([back_left] + on_ceiling((556, 559.2), (556, 332), (556, 227), (556, 0)), red)
+    m.polygon([front_left, back_left] + on_ceiling((556, 0)), red, 1)
+    m.polygon([back_left] + on_ceiling((556, 559.2), (556, 332), (556, 227), (556, 0)), red, 1)
 
     for name, corners, top in (("short_block", short, 165), ("tall_block", tall, 330)):
         m.group(name)
