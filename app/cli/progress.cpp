@@ -74,8 +74,9 @@ void Progress::finish() {
 }
 
 std::string Progress::lineOf(const ProgressFigures& figures) const {
-  std::string line = "unshot " + percentText(figures.unshot_fraction) + ", " +
-                     countedText(figures.shots, "shot") + ", " + runningTime(figures.seconds);
+  std::string line = "unshot " + percentText(figures.unshot_fraction) + ", ";
+  if (std::isfinite(figures.bound)) line += "error at most " + percentText(figures.bound) + ", ";
+  line += countedText(figures.shots, "shot") + ", " + runningTime(figures.seconds);
   if (figures.done <= 0) return line;
   double left = figures.seconds * (1 - figures.done) / figures.done;
   if (max_seconds_ > 0) left = std::min(left, std::max(0.0, max_seconds_ - figures.seconds));

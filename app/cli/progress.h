@@ -10,6 +10,7 @@ namespace unshot {
 struct ProgressFigures {
   double done = 0;  ///< fraction of the way, 0..1
   double unshot_fraction = 1;
+  double bound = 0;  ///< of the solver's error; infinite where there is none yet
   std::uint64_t shots = 0;
   double seconds = 0;
 };

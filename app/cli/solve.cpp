@@ -34,7 +34,7 @@ void runSteps(Solve& solve, const InterruptFlag& interrupted, Progress& progress
     }
     solve.step();
     const Measures& m = solve.measures();
-    progress.update({solve.progress(), m.unshot_fraction, m.shots, m.seconds});
+    progress.update({solve.progress(), m.unshot_fraction, m.solverBound(), m.shots, m.seconds});
   }
   progress.finish();
 }
@@ -66,6 +66,10 @@ std::optional<Error> writeOutputs(const SolveRequest& request, const ExportSourc
   return first;
 }
 
+std::string boundText(const Measures& m) {
+  return m.solverBound() < kNoBound ? percentText(m.solverBound()) : std::string("not known yet");
+}
+
 int endBeforeTheSolve() {
   std::cerr << "unshot: interrupted before the solve began; there is no result to write" << std::endl;
   return kExitInterrupted;
@@ -87,9 +91,9 @@ int concludeSolve(const Solve& solve, const SolveOptions& options, const Interru
       return kExitInterrupted;
     case SolveState::kLimit:
       std::cerr << "unshot: not converged: " << percentText(solve.measures().unshot_fraction)
-                << " is unshot, " << percentText(options.error) << " was asked for; stopped by "
-                << solve.stoppedBy() << "\n  try: a higher limit, a larger --error or fewer --elements"
-                << std::endl;
+                << " is unshot, and the error's bound is " << boundText(solve.measures()) << "; "
+                << percentText(options.error) << " was asked for; stopped by " << solve.stoppedBy()
+                << "\n  try: a higher limit, a larger --error or fewer --elements" << std::endl;
       return kExitNotConverged;
     default:
       break;

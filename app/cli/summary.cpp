@@ -7,7 +7,9 @@ namespace {
 
 std::string stopText(const RunRecord& record, const SolveOptions& options) {
   const std::string& by = record.stopped_by;
-  if (by == "error") return "error: unshot is below " + percentText(options.error);
+  if (by == "solver_upper") return by + ": the error's bound is below " + percentText(options.error);
+  if (by == "solver_total_upper")
+    return by + ": the bound of the total error is below " + percentText(options.error);
   if (by == "max_seconds" && options.max_seconds) return "max_seconds: " + durationText(*options.max_seconds);
   if (by == "max_shots" && options.max_shots) return "max_shots: " + countText(*options.max_shots);
   return by;
@@ -17,6 +19,17 @@ std::string shotsText(const Counts& counts) {
   std::string text = countText(counts.shots) + ", " + countedText(counts.rows, "column") + " computed";
   if (counts.drawn > 0) text += " from " + countedText(counts.drawn, "hemicube");
   return text;
+}
+
+std::string boundText(const SolverBounds& bounds) {
+  std::string text;
+  if (bounds.upper < kNoBound) {
+    text = "at most " + percentText(bounds.upper) + " of the reflected light (RMS)";
+    if (bounds.lower > 0) text += ", at least " + percentText(bounds.lower);
+  }
+  if (bounds.total_upper < kNoBound)
+    text += (text.empty() ? "at most " : "; ") + percentText(bounds.total_upper) + " of its total";
+  return text.empty() ? "no bound yet" : text;
 }
 
 std::string rendererText(const RunRecord& record) {
@@ -45,6 +58,7 @@ void printSummary(std::ostream& out, const RunRecord& record, const SolveOptions
       {"renderer", rendererText(record)},
       {"shots", shotsText(record.counts)},
       {"unshot", percentText(record.measures.unshot_fraction)},
+      {"solver error", boundText(record.measures.bounds)},
       {"time", durationText(total) + " (load " + durationText(seconds.load) + ", mesh " +
                    durationText(seconds.mesh) + ", plan " + durationText(seconds.plan) + ", solve " +
                    durationText(seconds.solve) + "), CPU " + durationText(seconds.cpu_solve)},

@@ -49,7 +49,7 @@ PhaseLook lookOf(const SessionState& state) {
       return {"Loading", {0.95f, 0.75f, 0.3f, 1}};
     case SessionPhase::kRunning:
       if (state.measures.drafts > 0 && state.facts &&
-          state.measures.unshot_fraction <= state.facts->options.error)
+          state.measures.solverBound() <= state.facts->options.error)
         return {"Refining form factors", {0.98f, 0.72f, 0.25f, 1}};
       return {"Shooting", {0.98f, 0.72f, 0.25f, 1}};
     case SessionPhase::kPaused:

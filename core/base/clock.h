@@ -14,4 +14,7 @@ double cpuSeconds();
 /// Largest resident set of this process so far [bytes].
 std::size_t peakMemoryBytes();
 
+/// Memory that this process could still take without driving others out [bytes].
+std::size_t availableMemoryBytes();
+
 }  // namespace unshot

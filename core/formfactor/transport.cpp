@@ -21,11 +21,19 @@ const Column& Transport::column(std::uint32_t q) {
 
 // A column that found no room is computed again as it was used before.
 Column Transport::compute(std::uint32_t q) {
-  ++computed_;
   const bool draft = quality_[q] == Quality::kUnused ? drafts_allowed_ : quality_[q] == Quality::kDraft;
+  return compute(q, draft);
+}
+
+Column Transport::compute(std::uint32_t q, bool draft) {
+  ++computed_;
   Column column = draft ? method_->draft(q) : method_->column(q);
-  if (column.draft && quality_[q] == Quality::kUnused) ++draft_count_;
-  quality_[q] = column.draft ? Quality::kDraft : Quality::kFull;
+  const Quality quality = column.draft ? Quality::kDraft : Quality::kFull;
+  if (quality == quality_[q]) return column;
+  if (quality_[q] == Quality::kDraft) --draft_count_;
+  if (quality == Quality::kDraft) ++draft_count_;
+  quality_[q] = quality;
+  if (watcher_) watcher_(q, column);
   return column;
 }
 
@@ -51,10 +59,8 @@ std::pair<Column, const Column&> Transport::refine(std::uint32_t q) {
     kept_[q].reset();
   }
   if (passing_patch_ == q) passing_patch_ = kNone;
-  if (quality_[q] == Quality::kDraft) --draft_count_;
-  quality_[q] = Quality::kFull;
   ++refined_;
-  return {std::move(draft), keep(q, compute(q))};
+  return {std::move(draft), keep(q, compute(q, false))};
 }
 
 Row Transport::row(std::uint32_t v) {

@@ -2,6 +2,7 @@
 // computed is kept within a budget and computed again where it does not fit.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <utility>
@@ -24,6 +25,12 @@ class Transport {
 
   /// Column q; valid until the next call. The last one asked for is always at hand.
   const Column& column(std::uint32_t q);
+  /// Whether column q is kept, so that asking for it costs nothing.
+  bool isKept(std::uint32_t q) const { return kept_[q] != nullptr; }
+  /// Called with each column as it is computed for the first time or in better quality.
+  void watchColumns(std::function<void(std::uint32_t, const Column&)> watcher) {
+    watcher_ = std::move(watcher);
+  }
   /// Whether columns not yet at hand are drafts where the method has them (FormFactorMethod::draft); at first
   /// not.
   void allowDrafts(bool allowed) { drafts_allowed_ = allowed; }
@@ -46,6 +53,7 @@ class Transport {
   enum class Quality : char { kUnused, kDraft, kFull };
 
   Column compute(std::uint32_t q);
+  Column compute(std::uint32_t q, bool draft);
   const Column& keep(std::uint32_t q, Column column);
 
   std::unique_ptr<FormFactorMethod> method_;
@@ -60,6 +68,7 @@ class Transport {
   std::vector<Quality> quality_;  // of the columns used so far
   std::size_t draft_count_ = 0;
   bool drafts_allowed_ = false;
+  std::function<void(std::uint32_t, const Column&)> watcher_;
 };
 
 }  // namespace unshot

@@ -57,6 +57,15 @@ Json jsonOf(const EnergyBalance& energy) {
           {"residual", energy.residual()}};
 }
 
+/// Where there is no bound: null.
+Json numberOrNull(double value) { return value < kNoBound ? Json(value) : Json(nullptr); }
+
+Json jsonOf(const SolverBounds& bounds) {
+  return {{"lower", numberOrNull(bounds.lower)},
+          {"upper", numberOrNull(bounds.upper)},
+          {"total_upper", numberOrNull(bounds.total_upper)}};
+}
+
 Json jsonOf(const std::vector<HistoryEntry>& history) {
   Json list = Json::array();
   for (const HistoryEntry& entry : history) {
@@ -66,7 +75,7 @@ Json jsonOf(const std::vector<HistoryEntry>& history) {
                     {"rows", m.rows},
                     {"shots", m.shots},
                     {"unshot", m.unshot_fraction},
-                    {"bounds", {{"lower", nullptr}, {"upper", nullptr}}}});
+                    {"bounds", jsonOf(m.bounds)}});
   }
   return list;
 }
@@ -103,8 +112,9 @@ std::string reportJson(const RunRecord& record) {
                    {"cpu_solve", seconds.cpu_solve}}},
                  {"unshot_fraction", record.measures.unshot_fraction},
                  {"errors",
-                  {{"solver_lower", nullptr},
-                   {"solver_upper", nullptr},
+                  {{"solver_lower", numberOrNull(record.measures.bounds.lower)},
+                   {"solver_upper", numberOrNull(record.measures.bounds.upper)},
+                   {"solver_total_upper", numberOrNull(record.measures.bounds.total_upper)},
                    {"form_factor", nullptr},
                    {"discretisation", nullptr}}},
                  {"energy", jsonOf(record.energy)},

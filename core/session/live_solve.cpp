@@ -114,6 +114,7 @@ void LiveSolve::perform(const command::Step& c) {
 
 void LiveSolve::perform(const command::SetMode& c) {
   usable().setMode(c.key);
+  failure_noted_ = false;
   facts_ = factsOf(*solve_, facts_->load_seconds);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "solver/bounds.h"
 
 namespace unshot {
 
@@ -19,6 +20,10 @@ struct Measures {
   std::uint64_t drafts = 0;    ///< columns in use that are still drafts (SolveOptions::draft_first)
   std::uint64_t refined = 0;   ///< drafts that were replaced
   double unshot_fraction = 1;  ///< sum A |U| / sum A E over patches and channels
+  SolverBounds bounds;         ///< of the solver's error
+  /// The figure that SolveOptions::error is held against: bounds.upper where there is one, else
+  /// bounds.total_upper.
+  double solverBound() const { return bounds.upper < kNoBound ? bounds.upper : bounds.total_upper; }
 };
 
 /// One state of a solve. Fields are per display vertex of `mesh`; radiosity is B = E + rho (irradiance +

@@ -6,6 +6,7 @@
 #include "base/clock.h"
 #include "formfactor/methods.h"
 #include "gl/context.h"
+#include "session/error_budget.h"
 #include "session/fields.h"
 #include "session/plan.h"
 #include "solver/ambient.h"
@@ -46,13 +47,14 @@ struct Solve::Impl {
   std::unique_ptr<RadiosityState> state;
   std::unique_ptr<IterationMode> mode;
   std::unique_ptr<AmbientTerm> ambient;
+  std::unique_ptr<ErrorBudget> budget;
 
   SolveState progress_state = SolveState::kRunning;
   std::string stopped_by;
   std::optional<Error> failure;
   Measures measures;
   std::vector<HistoryEntry> history;
-  bool resting = false;
+  bool resting = false, mode_failed = false;
   double measured_wall = 0, measured_cpu = 0;                            // when `measures` were taken
   std::shared_ptr<const std::vector<glm::vec3>> direct, element_direct;  // for emission_shots of the state
   std::uint64_t emission_shots = 0;
@@ -70,10 +72,12 @@ struct Solve::Impl {
   bool nothingDiesOut() const;
   void wakeClocks();
   void measure();
+  bool reached();
   void checkLimits();
   void checkStagnation();
   void record();
   void refineBrightest();
+  std::optional<std::size_t> iterate();
 };
 
 void Solve::Impl::prepare(const std::function<gl::Context&()>& gl) {
@@ -87,13 +91,18 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl) {
   seconds.mesh = prepared.mesh_seconds;
   seconds.plan = prepared.plan_seconds;
 
-  chooseMode(options.mode);
   const double cpu_before_setup = cpuSeconds();
   makeTransport(gl);
   cpu_setup = cpuSeconds() - cpu_before_setup;
   state = std::make_unique<RadiosityState>(*transport, perPatch(*mesh, &Side::emission),
                                            perPatch(*mesh, &Side::reflectance));
   ambient = std::make_unique<AmbientTerm>(mesh->patch_count, mesh->patch_air);
+  budget = std::make_unique<ErrorBudget>(*transport, *state, options.kept_bytes / 4);
+  transport->watchColumns([this](std::uint32_t q, const Column& column) {
+    ambient->sees(q, column, transport->receivers());
+    budget->columnComputed(q, column);
+  });
+  chooseMode(options.mode);
   solve_start = wallSeconds();
   if (state->emittedPower() <= 0) {
     measures.unshot_fraction = 0;
@@ -125,7 +134,12 @@ void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl) {
 
 void Solve::Impl::chooseMode(const std::string& key) {
   const std::string chosen = key == "auto" ? "southwell" : key;
-  mode = findChoice(iterationModes(), chosen, "iteration mode").make();
+  const IterationModeRow& row = findChoice(iterationModes(), chosen, "iteration mode");
+  const std::string reason = row.unavailable(modeSetup(mesh->element_count, state->reflectance()));
+  if (!reason.empty()) {
+    throw Error(ErrorKind::kEnvironment, "the mode '" + chosen + "' is not for this scene: " + reason);
+  }
+  mode = row.make();
   mode_key = chosen;
   options.mode = key;
 }
@@ -160,6 +174,7 @@ void Solve::Impl::measure() {
     measures.unshot_fraction = emitted - emitted;  // not a number, rather than a share of infinity
   } else if (emitted > 0) {
     measures.unshot_fraction = state->unshotPower() / emitted;
+    measures.bounds = budget->update(measures.shots, options.error);
   }
   seconds.solve = measures.seconds;
   seconds.cpu_solve = measures.cpu_seconds;
@@ -168,13 +183,21 @@ void Solve::Impl::measure() {
 void Solve::Impl::checkLimits() {
   if (!std::isfinite(measures.unshot_fraction)) {
     fail(ErrorKind::kInternal, "a value is no longer finite", "another --mode or --form-factors");
-  } else if (measures.unshot_fraction <= options.error && measures.drafts == 0) {
-    stop(SolveState::kConverged, "error");
+  } else if (reached()) {
+    stop(SolveState::kConverged, measures.bounds.upper < kNoBound ? "solver_upper" : "solver_total_upper");
   } else if (options.max_shots && measures.shots >= *options.max_shots) {
     stop(SolveState::kLimit, "max_shots");
   } else if (options.max_seconds && measures.seconds >= *options.max_seconds) {
     stop(SolveState::kLimit, "max_seconds");
   }
+}
+
+// Whether the error asked for is reached, held against the bound as it is at its sharpest (which may be one
+// per patch where the last was for the total).
+bool Solve::Impl::reached() {
+  if (measures.solverBound() > options.error || measures.drafts > 0) return false;
+  measures.bounds = budget->sharpen();
+  return measures.solverBound() <= options.error;
 }
 
 // Whether the light still on its way goes from wall to wall that reflects all of it.
@@ -233,6 +256,17 @@ void Solve::Impl::refineBrightest() {
   state->replaceColumn(brightest, draft, column);
 }
 
+// A step of the mode; one that cannot go on ends the solve as failed, with what it has.
+std::optional<std::size_t> Solve::Impl::iterate() {
+  try {
+    return mode->step(*state, *transport);
+  } catch (const IterationFailure& problem) {
+    mode_failed = true;
+    fail(problem.kind(), problem.what(), problem.advice());
+    return 0;
+  }
+}
+
 Solve::Solve(Scene scene, SolveOptions options, std::function<gl::Context&()> gl)
     : impl_(std::make_unique<Impl>(std::move(scene), std::move(options))) {
   impl_->prepare(gl);
@@ -245,18 +279,19 @@ void Solve::step() {
   if (s.progress_state != SolveState::kRunning) return;
   s.wakeClocks();
   bool nothing_left = false;
-  if (s.measures.drafts > 0 && s.measures.unshot_fraction <= s.options.error) {
+  if (s.measures.drafts > 0 && s.measures.solverBound() <= s.options.error) {
     s.refineBrightest();
-  } else if (const auto shooter = s.mode->step(*s.state, *s.transport)) {
-    ++s.measures.shots;
-    s.ambient->sees(*shooter, *s.transport);
+  } else if (const auto used = s.iterate()) {
+    s.measures.shots += *used;
   } else {
     nothing_left = s.measures.drafts == 0;
     if (!nothing_left) s.refineBrightest();
   }
   s.measure();
-  s.checkLimits();
-  if (s.progress_state == SolveState::kRunning && nothing_left) s.stop(SolveState::kConverged, "error");
+  if (s.progress_state == SolveState::kRunning) s.checkLimits();
+  if (s.progress_state == SolveState::kLimit || nothing_left) s.measures.bounds = s.budget->sharpen();
+  if (s.progress_state == SolveState::kRunning && nothing_left)
+    s.stop(SolveState::kConverged, "nothing unshot");
   if (s.progress_state == SolveState::kRunning) s.checkStagnation();
   s.record();
 }
@@ -264,6 +299,11 @@ void Solve::step() {
 void Solve::setMode(const std::string& key) {
   Impl& s = *impl_;
   s.chooseMode(key);
+  if (s.mode_failed && s.progress_state == SolveState::kFailed) {
+    s.failure.reset();
+    s.stop(SolveState::kRunning, {});
+  }
+  s.mode_failed = false;
   s.watched_fraction = s.measures.unshot_fraction;
   s.watched_shots = s.measures.shots;
 }
@@ -277,7 +317,7 @@ void Solve::setError(double error) {
     s.stop(SolveState::kRunning, {});
     s.watched_fraction = s.measures.unshot_fraction;
     s.watched_shots = s.measures.shots;
-  } else if (s.progress_state == SolveState::kLimit && s.measures.unshot_fraction <= error) {
+  } else if (s.progress_state == SolveState::kLimit && s.measures.solverBound() <= error) {
     s.stop(SolveState::kRunning, {});
   }
   if (s.progress_state != SolveState::kRunning) return;
@@ -314,8 +354,10 @@ double Solve::progress() const {
   const Impl& s = *impl_;
   if (s.progress_state == SolveState::kConverged) return 1;
   if (!std::isfinite(s.measures.unshot_fraction)) return 0;
-  const double reached = std::log(std::max(s.measures.unshot_fraction, 1e-300)) / std::log(s.options.error);
-  return std::clamp(reached, 0.0, 1.0);
+  // Until there is a bound, what is unshot says how far it is.
+  const double bound = s.measures.solverBound(), left = bound < kNoBound ? bound : s.measures.unshot_fraction;
+  const double reached = std::log(std::max(left, 1e-300)) / std::log(s.options.error);
+  return std::clamp(reached, 0.0, 0.999);
 }
 
 EnergyBalance Solve::energy() const {

@@ -25,7 +25,7 @@ struct SolveOptions {
   std::optional<std::uint64_t> elements;  ///< over all lit sides; at most one of elements and element_size
   std::optional<double> element_size;     ///< [m], edge of an element
   bool emit_front_only = false;
-  double error = 0.01;  ///< stop when the unshot fraction of power is below this
+  double error = 0.01;  ///< stop when the bound of the solver's error (Measures::solverBound) is below this
   std::optional<double> max_seconds;
   std::optional<std::uint64_t> max_shots;
   std::uint64_t seed = 1;
@@ -81,8 +81,9 @@ class Solve {
   /// interruption act soon.
   void step();
 
-  /// Another iteration mode, which goes on from what was shot and received; columns at hand stay. It does not
-  /// revive a solve that has ended. Throws a usage Error for an unknown key.
+  /// Another iteration mode, which goes on from what was shot and received; columns at hand stay. It
+  /// revives a solve that failed because its mode could not go on, none that has ended otherwise. Throws an
+  /// Error for an unknown key (kUsage) or a mode that is not for this scene (kEnvironment).
   void setMode(const std::string& key);
   /// Another SolveOptions::error: a running solve (or one at a limit) that has reached it converges at once,
   /// a converged one that has not runs again. Throws a usage Error unless 0 < error < 1.
@@ -113,7 +114,8 @@ class Solve {
   const PhaseSeconds& seconds() const;
   std::size_t keptBytes() const;  ///< memory held by kept columns
   std::uint64_t drawn() const;    ///< hemicubes drawn
-  /// "error", "max_seconds", "max_shots", "interrupted", "no light", or what failed.
+  /// The bound that reached the error asked for ("solver_upper", "solver_total_upper"), "nothing unshot",
+  /// "max_seconds", "max_shots", "interrupted", "no light", or what failed.
   const std::string& stoppedBy() const;
   /// What failed and what to try: kInput where the scene has no finite solution, kInternal for numerical
   /// trouble. Nothing unless state() is kFailed.

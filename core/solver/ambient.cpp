@@ -16,11 +16,10 @@ std::uint32_t AmbientTerm::find(std::uint32_t q) const {
   return q;
 }
 
-void AmbientTerm::sees(std::uint32_t q, Transport& transport) {
+void AmbientTerm::sees(std::uint32_t q, const Column& column, const Receivers& receivers) {
   if (noted_[q]) return;
   noted_[q] = 1;
-  const Receivers& receivers = transport.receivers();
-  transport.column(q).forEach([&](std::uint32_t v, double) {
+  column.forEach([&](std::uint32_t v, double) {
     for (std::uint32_t s = receivers.start[v]; s < receivers.start[v + 1]; ++s) {
       group_[find(receivers.shares[s].patch)] = find(q);
     }

@@ -20,8 +20,8 @@ class AmbientTerm {
   /// Empty: none.
   explicit AmbientTerm(std::size_t patches, std::span<const std::uint32_t> air = {});
 
-  /// Notes who receives light from patch q, which has just shot (so that its column is at hand).
-  void sees(std::uint32_t q, Transport& transport);
+  /// Notes who receives light from patch q, whose column this is.
+  void sees(std::uint32_t q, const Column& column, const Receivers& receivers);
   /// One value per patch [W/m^2].
   std::vector<glm::dvec3> values(const RadiosityState& state) const;
 

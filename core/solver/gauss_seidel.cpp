@@ -7,7 +7,7 @@ namespace {
 
 class GaussSeidel final : public IterationMode {
  public:
-  std::optional<std::uint32_t> step(RadiosityState& state, Transport& transport) override {
+  std::optional<std::size_t> step(RadiosityState& state, Transport& transport) override {
     const std::size_t n = state.patchCount();
     for (std::size_t tried = 0; tried < n; ++tried) {
       const auto q = static_cast<std::uint32_t>(next_);
@@ -15,7 +15,7 @@ class GaussSeidel final : public IterationMode {
       const glm::dvec3 d = state.unshot()[q];
       if (d == glm::dvec3(0.0)) continue;
       state.shoot(q, d, transport.column(q));
-      return q;
+      return 1;
     }
     return std::nullopt;
   }

@@ -7,13 +7,13 @@ namespace {
 
 class Jacobi final : public IterationMode {
  public:
-  std::optional<std::uint32_t> step(RadiosityState& state, Transport& transport) override {
+  std::optional<std::size_t> step(RadiosityState& state, Transport& transport) override {
     for (int round = 0; round < 2; ++round) {
       for (; next_ < bounce_.size(); ++next_) {
         if (bounce_[next_] == glm::dvec3(0.0)) continue;
         const auto q = static_cast<std::uint32_t>(next_++);
         state.shoot(q, bounce_[q], transport.column(q));
-        return q;
+        return 1;
       }
       bounce_ = state.unshot();
       next_ = 0;

@@ -1,35 +1,65 @@
-// The table of iteration modes. A mode only chooses what is shot next; a new mode is its own file and a row
-// here.
+// The table of iteration modes. A mode only chooses what is shot; a new mode is its own file and a row here.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "base/choice.h"
+#include "base/error.h"
 #include "formfactor/transport.h"
 #include "solver/state.h"
 
 namespace unshot {
 
+/// A mode cannot go on; another may, from the state as it is.
+class IterationFailure : public Error {
+ public:
+  using Error::Error;
+};
+
 /// One way of iterating. It may be created on any state (another mode's, half way), and left at any step.
 class IterationMode {
  public:
   virtual ~IterationMode() = default;
-  /// One shot: chooses a patch, gets its column, applies it. Returns the patch, or none where nothing is left
-  /// to shoot.
-  virtual std::optional<std::uint32_t> step(RadiosityState& state, Transport& transport) = 0;
+  /// A step of milliseconds to a few tens of them: computes one column at most. Returns how many columns it
+  /// used, or none where nothing is left to shoot. Throws IterationFailure; the state is then as good as
+  /// before.
+  virtual std::optional<std::size_t> step(RadiosityState& state, Transport& transport) = 0;
+  /// What it is doing besides shooting, such as "factorising"; empty: it shoots.
+  virtual std::string activity() const { return {}; }
 };
+
+/// What a mode's availability depends on.
+struct ModeSetup {
+  std::size_t patches = 0, elements = 0;
+  int channels = 3;              ///< how many of the three differ in reflectance
+  std::size_t memory_bytes = 0;  ///< free on this machine
+};
+
+/// Its figures for a system; `reflectance` one per patch.
+ModeSetup modeSetup(std::size_t elements, std::span<const glm::dvec3> reflectance);
 
 struct IterationModeRow {
   ChoiceInfo info;
   std::unique_ptr<IterationMode> (*make)();
+  /// Empty, or why the mode is not for this system, with what to try in parentheses.
+  std::string (*unavailable)(const ModeSetup&);
 };
 
 std::span<const IterationModeRow> iterationModes();
 
 std::unique_ptr<IterationMode> makeSouthwell();
+std::unique_ptr<IterationMode> makeKeptFirst();
+std::unique_ptr<IterationMode> makeOvershoot();
 std::unique_ptr<IterationMode> makeJacobi();
 std::unique_ptr<IterationMode> makeGaussSeidel();
+std::unique_ptr<IterationMode> makeChebyshev();
+std::unique_ptr<IterationMode> makeConjugateGradient();
+std::unique_ptr<IterationMode> makeGmres();
+std::unique_ptr<IterationMode> makeDirect();
+std::string directUnavailable(const ModeSetup& setup);
 
 }  // namespace unshot

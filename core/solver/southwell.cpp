@@ -1,8 +1,7 @@
 // Progressive refinement: Southwell's relaxation (1940) applied to radiosity (Cohen, Chen, Wallace and
 // Greenberg 1988; Gortler, Cohen and Slusallek 1994). The patch with the largest A_q |U_q|, channels summed,
 // shoots all of U_q.
-#include <cmath>
-
+#include "solver/brightness.h"
 #include "solver/modes.h"
 
 namespace unshot {
@@ -10,21 +9,13 @@ namespace {
 
 class Southwell final : public IterationMode {
  public:
-  std::optional<std::uint32_t> step(RadiosityState& state, Transport& transport) override {
-    std::uint32_t brightest = 0;
-    double most = 0;
-    for (std::uint32_t q = 0; q < state.patchCount(); ++q) {
-      const glm::dvec3& u = state.unshot()[q];
-      const double power = state.area()[q] * (std::abs(u.x) + std::abs(u.y) + std::abs(u.z));
-      if (power > most) {
-        most = power;
-        brightest = q;
-      }
-    }
-    if (most == 0) return std::nullopt;
-    const glm::dvec3 d = state.unshot()[brightest];
-    state.shoot(brightest, d, transport.column(brightest));
-    return brightest;
+  std::optional<std::size_t> step(RadiosityState& state, Transport& transport) override {
+    const std::uint32_t q = heaviest(
+        state.patchCount(), [&](std::uint32_t p) { return powerOf(state.area()[p], state.unshot()[p]); });
+    if (q == kNone) return std::nullopt;
+    const glm::dvec3 d = state.unshot()[q];
+    state.shoot(q, d, transport.column(q));
+    return 1;
   }
 };
 

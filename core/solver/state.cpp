@@ -54,6 +54,17 @@ void RadiosityState::shoot(std::uint32_t q, const glm::dvec3& d, const Column& c
   column.forEach([&](std::uint32_t v, double k) { direct_[v] += k * emitted; });
 }
 
+void RadiosityState::add(const glm::dvec3& factor, const LightFlow& flow) {
+  for (std::size_t v = 0; v < irradiance_.size(); ++v) irradiance_[v] += factor * flow.irradiance[v];
+  const std::vector<glm::dvec3> reflected = reflectedMeans(transport_, reflectance_, flow.irradiance);
+  for (std::size_t q = 0; q < shot_.size(); ++q) {
+    shot_[q] += factor * flow.shot[q];
+    unshot_[q] += factor * (reflected[q] - flow.shot[q]);
+  }
+  escaped_power_ += sumOfChannels(factor * flow.escaped);
+  defect_power_ += sumOfChannels(factor * flow.defect);
+}
+
 void RadiosityState::replaceColumn(std::uint32_t q, const Column& before, const Column& after) {
   receive(q, shot_[q], after);
   receive(q, -shot_[q], before);

@@ -15,6 +15,7 @@
 
 #include "formfactor/transport.h"
 #include "mesh/mesh.h"
+#include "solver/light_flow.h"
 
 namespace unshot {
 
@@ -29,6 +30,9 @@ class RadiosityState {
   /// S_q += d, H += K d; H_d += K of the emission in d: per channel, as much of d as is emission not yet shot
   /// (a negative d holds none). `column` is column q of the transport the state was made with.
   void shoot(std::uint32_t q, const glm::dvec3& d, const Column& column);
+  /// S += factor d, H += factor K d, channel by channel. All emission must have been shot before (shoot), so
+  /// that the flow adds nothing to H_d.
+  void add(const glm::dvec3& factor, const LightFlow& flow);
   /// Better form factors for what q has shot: H += (K' - K) S_q, and U with it; S stays. `before` and `after`
   /// are column q as it was and as it is. Not for emitters, whose direct light has no second form.
   void replaceColumn(std::uint32_t q, const Column& before, const Column& after);
@@ -43,9 +47,13 @@ class RadiosityState {
   /// How many shots carried emission: direct() is as before where this is.
   std::uint64_t emissionShots() const { return emission_shots_; }
   const std::vector<double>& area() const { return area_; }  ///< one per patch [m^2]
+  /// Emission of patch q that it has not shot yet [W/m^2].
+  const glm::dvec3& emissionLeft(std::uint32_t q) const { return emission_left_[q]; }
 
   double emittedPower() const { return emitted_power_; }  ///< sum A E over patches and channels [W]
   double unshotPower() const;                             ///< sum A |U| over patches and channels [W]
+  /// Whether U is no more than what rounding leaves of what was emitted.
+  bool onlyRoundingUnshot() const { return unshotPower() <= 1e-15 * emitted_power_; }
   double escapedPower() const { return escaped_power_; }  ///< shot into nothing so far, over channels [W]
   double defectPower() const {
     return defect_power_;

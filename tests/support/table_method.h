@@ -1,6 +1,7 @@
 // Form factors from a table, so that the solver can be tested without geometry and without OpenGL.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -158,6 +159,32 @@ inline TableSystem randomSystem(std::uint64_t seed, std::uint32_t patches, std::
     if (shared) addReceiver({q, (q + 1) % patches});
   }
   return out;
+}
+
+/// The same with pairs that are reciprocal, A_p (R K)_pq = A_q (R K)_qp (to float rounding); all receivers of
+/// a patch see the same. `system` is not shared.
+inline TableSystem reciprocal(TableSystem system) {
+  const std::size_t n = system.patch_area.size();
+  double least_area = system.patch_area[0];
+  for (const double a : system.patch_area) least_area = std::min(least_area, a);
+  const DenseMatrix given = system.k;
+  const auto pair = [&](std::size_t p, std::size_t q) {
+    double sum = 0;
+    for (const PatchShare& s : system.receivers.shares) {
+      if (s.patch == p) sum += given[s.receiver][q];
+      if (s.patch == q) sum += given[s.receiver][p];
+    }
+    return sum;
+  };
+  const double per_patch = static_cast<double>(system.receivers.size()) / static_cast<double>(n);
+  for (const PatchShare& s : system.receivers.shares) {
+    // Rows of `given` sum to 1 at most, columns to less than 3; a quarter keeps the new rows below 1.
+    for (std::size_t q = 0; q < n; ++q) {
+      const double w = pair(s.patch, q) * least_area / (4 * per_patch * system.patch_area[s.patch]);
+      system.k[s.receiver][q] = static_cast<double>(static_cast<float>(w));
+    }
+  }
+  return system;
 }
 
 }  // namespace unshot::testing_support

@@ -27,6 +27,11 @@ TEST(AmbientTerm, IsExactAtTheStartOfAFurnace) {
 }
 
 // Two rooms of 8 patches; only the first has light.
+void feed(AmbientTerm& ambient, Transport& transport) {
+  transport.watchColumns(
+      [&](std::uint32_t q, const Column& column) { ambient.sees(q, column, transport.receivers()); });
+}
+
 class TwoRooms : public testing::Test {
  protected:
   TwoRooms() : system_(randomSystem(2, 16, 2, true, 0.9)) {
@@ -51,13 +56,14 @@ TEST_F(TwoRooms, GetNoneOfEachOthersLight) {
     Transport transport = system_.transport();
     RadiosityState state(transport, system_.emission, system_.reflectance);
     AmbientTerm ambient(16);
+    feed(ambient, transport);
     const auto mode = row.make();
     for (int k = 0; k < 60; ++k) {
-      if (const auto shooter = mode->step(state, transport)) ambient.sees(*shooter, transport);
+      mode->step(state, transport);
       const std::vector<glm::dvec3> values = ambient.values(state);
       for (std::size_t q = 8; q < 16; ++q)
         EXPECT_EQ(values[q], glm::dvec3(0.0)) << row.info.key << " shot " << k;
-      if (k < 5) {
+      if (k < 5 && row.info.key != "overshoot") {  // which holds less than nothing after it
         EXPECT_GT(values[3].x, 0);
       }
     }
@@ -71,7 +77,7 @@ TEST_F(TwoRooms, AverageOverThoseWhoSeeEachOther) {
   AmbientTerm ambient(16);
   for (std::uint32_t q = 0; q < 8; ++q) {
     state.shoot(q, state.unshot()[q], transport.column(q));
-    ambient.sees(q, transport);
+    ambient.sees(q, transport.column(q), transport.receivers());
   }
   double power = 0, reflected = 0, area = 0;
   for (std::size_t q = 0; q < 8; ++q) {
@@ -87,8 +93,9 @@ TEST_F(TwoRooms, HaveLessAmbientAsTheirLightIsShot) {
   Transport transport = system_.transport();
   RadiosityState state(transport, system_.emission, system_.reflectance);
   AmbientTerm ambient(16);
+  feed(ambient, transport);
   const auto mode = makeSouthwell();
-  for (int k = 0; k < 400; ++k) ambient.sees(mode->step(state, transport).value(), transport);
+  for (int k = 0; k < 400; ++k) mode->step(state, transport);
   for (const glm::dvec3& value : ambient.values(state)) EXPECT_LT(value.x, 1e-3);
 }
 

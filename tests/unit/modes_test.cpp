@@ -25,13 +25,26 @@ int solve(IterationMode& mode, RadiosityState& state, Transport& transport, doub
   return 0;
 }
 
+/// A system that the mode is for.
+TableSystem systemFor(const IterationModeRow& row, std::uint64_t seed, std::uint32_t patches,
+                      std::uint32_t per_patch, bool shared, double row_sum) {
+  if (row.info.key == "conjugate-gradient")
+    return reciprocal(randomSystem(seed, patches, per_patch, false, row_sum));
+  return randomSystem(seed, patches, per_patch, shared, row_sum);
+}
+
+bool shootsPatchByPatch(const IterationModeRow& row) {
+  const auto keys = {"southwell", "kept-first", "jacobi", "gauss-seidel"};
+  return std::find(keys.begin(), keys.end(), row.info.key) != keys.end();
+}
+
 class Mode : public testing::TestWithParam<IterationModeRow> {};
 
 // The infinity norm of M is at most 0.9 * 0.95, so what is left in S is below 1e-9 / (1 - 0.86) of the
 // emitted power.
 TEST_P(Mode, FindsTheSolutionThatEliminationFinds) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    const TableSystem system = randomSystem(seed, 20, 3, seed % 2 == 0, 0.95);
+    const TableSystem system = systemFor(GetParam(), seed, 20, 3, seed % 2 == 0, 0.95);
     Transport transport = system.transport();
     RadiosityState state(transport, system.emission, system.reflectance);
     const auto mode = GetParam().make();
@@ -47,7 +60,7 @@ TEST_P(Mode, FindsTheSolutionThatEliminationFinds) {
 
 // Three rooms that do not see each other, one of them dark.
 TEST_P(Mode, LeavesWhatNoLightReachesExactlyDark) {
-  TableSystem system = randomSystem(9, 12, 2, false, 0.95);
+  TableSystem system = systemFor(GetParam(), 9, 12, 2, false, 0.95);
   for (std::size_t v = 0; v < system.k.size(); ++v) {
     for (std::size_t q = 0; q < 12; ++q) {
       if (v / 2 % 3 != q % 3) system.k[v][q] = 0;
@@ -89,7 +102,7 @@ TEST_P(Mode, NeverAsksForAColumnThatCarriesNothing) {
 }
 
 TEST_P(Mode, GoesOnFromWhereAnotherStopped) {
-  const TableSystem system = randomSystem(12, 20, 3, true, 0.95);
+  const TableSystem system = systemFor(GetParam(), 12, 20, 3, true, 0.95);
   for (const IterationModeRow& first : iterationModes()) {
     Transport transport = system.transport();
     RadiosityState state(transport, system.emission, system.reflectance);
@@ -128,6 +141,7 @@ TEST_P(Mode, HasAllDirectLightOnceEveryEmitterHasShot) {
 
 // With U >= 0 at the start, shooting U keeps it so, and S grows towards the solution from below.
 TEST_P(Mode, ApproachesTheSolutionFromBelow) {
+  if (!shootsPatchByPatch(GetParam())) GTEST_SKIP() << "its U takes both signs";
   const TableSystem system = randomSystem(13, 20, 3, false, 0.95);
   Transport transport = system.transport();
   RadiosityState state(transport, system.emission, system.reflectance);
@@ -150,7 +164,7 @@ INSTANTIATE_TEST_SUITE_P(Table, Mode, testing::ValuesIn(iterationModes().begin()
                          });
 
 TEST(Modes, AgreeWithEachOther) {
-  const TableSystem system = randomSystem(14, 30, 2, true, 0.95);
+  const TableSystem system = reciprocal(randomSystem(14, 30, 2, false, 0.95));
   std::vector<std::vector<glm::dvec3>> solutions;
   for (const IterationModeRow& row : iterationModes()) {
     Transport transport = system.transport();
@@ -179,7 +193,10 @@ TEST(Southwell, ShootsTheBrightestFirst) {
     double most = 0;
     for (std::uint32_t q = 0; q < 20; ++q) most = std::max(most, power(q));
     const std::vector<glm::dvec3> before = state.unshot();
-    const std::uint32_t shooter = mode->step(state, transport).value();
+    const std::vector<glm::dvec3> shot = state.shot();
+    ASSERT_EQ(mode->step(state, transport), 1u);
+    const auto shooter = static_cast<std::size_t>(
+        std::mismatch(shot.begin(), shot.end(), state.shot().begin()).first - shot.begin());
     const glm::dvec3 u = glm::abs(before[shooter]);
     EXPECT_EQ(state.area()[shooter] * (u.x + u.y + u.z), most);
   }
@@ -196,7 +213,7 @@ TEST(Jacobi, HasTheErrorRhoToThePowerOfItsSweepsInAFurnace) {
   RadiosityState state(transport, system.emission, system.reflectance);
   const auto mode = makeJacobi();
   for (int sweep = 1; sweep <= 60; ++sweep) {
-    for (std::uint32_t k = 0; k < 24; ++k) EXPECT_EQ(mode->step(state, transport), k);
+    for (std::uint32_t k = 0; k < 24; ++k) EXPECT_EQ(mode->step(state, transport), 1u);
     const double expected = std::pow(rho, sweep + 1);
     for (const glm::dvec3& h : state.irradiance()) {
       const double error = 1 - (emission + rho * h.x) / (emission / (1 - rho));

@@ -1,0 +1,73 @@
+#include "session/error_budget.h"
+
+#include <algorithm>
+
+#include "base/clock.h"
+
+namespace unshot {
+namespace {
+
+// Share of the solver's work that goes into bounds beyond the passes over patches that each step has anyway.
+constexpr double kShare = 0.06;
+// An operation is one entry of the matrix times a colour, some 5 ns. A column of K takes this many to compute
+// (1 to 2 ms), and a shot along one at hand that many for each entry of its patch column (it has as many
+// receivers on a patch).
+constexpr double kColumnWork = 300'000, kShotWork = 10;
+constexpr int kProducts = 4;
+constexpr int kMostRefreshes = 50;
+// Weights are lowered again when this share more of the columns is known.
+constexpr double kNews = 0.02;
+// Where a bound is below this many times the error asked for, a sharper one may end the solve.
+constexpr double kNear = 4;
+
+}  // namespace
+
+ErrorBudget::ErrorBudget(const Transport& transport, const RadiosityState& state, std::size_t matrix_bytes)
+    : matrix_(transport.receivers(), transport.patchArea(), matrix_bytes), bounds_(matrix_, state) {}
+
+void ErrorBudget::columnComputed(std::uint32_t q, const Column& column) {
+  matrix_.set(q, column);
+  bounds_.columnChanged(q);
+  credit_ += kShare * kColumnWork;
+}
+
+const SolverBounds& ErrorBudget::update(std::uint64_t shots, double error) {
+  const double began = wallSeconds();
+  const auto entries = static_cast<double>(matrix_.entryCount());
+  const double columns = std::max(1.0, static_cast<double>(matrix_.knownCount()));
+  credit_ += kShare * kShotWork * static_cast<double>(shots - shots_) * entries / columns;
+  shots_ = shots;
+  now_ = bounds_.at();
+  const double cost = (kProducts + 3) * entries;
+  if (credit_ < cost) return now_;
+  const bool known_more = static_cast<double>(matrix_.knownCount()) >=
+                          static_cast<double>(refreshed_count_) + kNews * static_cast<double>(matrix_.size());
+  const bool rested = refreshed_version_ != matrix_.version() && matrix_.version() == last_version_;
+  last_version_ = matrix_.version();
+  const double bound = now_.upper < kNoBound ? now_.upper : now_.total_upper;
+  if (known_more || rested || (gains_ && refreshed_version_ == matrix_.version())) {
+    gains_ = bounds_.refresh();
+    refreshed_count_ = matrix_.knownCount();
+    refreshed_version_ = matrix_.version();
+    now_ = bounds_.at();
+  } else if ((bound > error && std::min(bound, now_.total_upper) < kNear * error) || credit_ > 4 * cost) {
+    now_ = bounds_.sharpened(kProducts);
+  } else {
+    return now_;
+  }
+  credit_ -= cost;
+  seconds_ += wallSeconds() - began;
+  return now_;
+}
+
+const SolverBounds& ErrorBudget::sharpen() {
+  const double began = wallSeconds();
+  for (int k = 0; k < kMostRefreshes && bounds_.refresh(); ++k) {
+  }
+  gains_ = false;
+  now_ = bounds_.sharpened(2 * kProducts);
+  seconds_ += wallSeconds() - began;
+  return now_;
+}
+
+}  // namespace unshot

@@ -1,0 +1,43 @@
+// How wrong the picture still is, and from which cause, at a small share of the solver's time.
+#pragma once
+
+#include <cstdint>
+
+#include "formfactor/transport.h"
+#include "solver/bounds.h"
+#include "solver/patch_matrix.h"
+#include "solver/state.h"
+
+namespace unshot {
+
+class ErrorBudget {
+ public:
+  /// All outlive the budget. `matrix_bytes`: what the matrix among patches may take.
+  ErrorBudget(const Transport& transport, const RadiosityState& state, std::size_t matrix_bytes);
+
+  /// To be called with each column of the transport, new or better.
+  void columnComputed(std::uint32_t q, const Column& column);
+  /// The bounds of the present state, after `shots` shots. They are worked out more sharply as often as a
+  /// small share of the solver's work allows, counted in operations, so that a solve is the same each time;
+  /// where `error` is near, that goes first.
+  const SolverBounds& update(std::uint64_t shots, double error);
+  /// The bounds as sharp as they get, whatever it takes (a few sweeps).
+  const SolverBounds& sharpen();
+  const ErrorBounds& bounds() const { return bounds_; }
+  double seconds() const { return seconds_; }  ///< wall time that it took so far
+  std::size_t bytes() const { return matrix_.bytes(); }
+
+ private:
+  PatchMatrix matrix_;
+  ErrorBounds bounds_;
+  SolverBounds now_;
+  double credit_ = 0;  // operations that the solver's work allows
+  std::uint64_t shots_ = 0;
+  std::size_t refreshed_count_ = 0;
+  std::uint64_t refreshed_version_ = ~std::uint64_t{0};
+  std::uint64_t last_version_ = 0;
+  bool gains_ = true;
+  double seconds_ = 0;
+};
+
+}  // namespace unshot

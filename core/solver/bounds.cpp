@@ -1,0 +1,267 @@
+#include "solver/bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+namespace unshot {
+namespace {
+
+// Products with the matrix in one refresh.
+constexpr int kProductsAtOnce = 4;
+// Partial sums of (I - M)^-1 1 that are tried for a positive v - M v.
+constexpr int kMostSums = 200;
+// The matrix is held in single precision.
+constexpr double kRounding = 4 * 6e-8;
+// A weight that falls by less than this share is as good as found.
+constexpr double kGain = 0.01;
+// Unshot radiosity this far below 0, as a share of the largest, is rounding.
+constexpr double kSignless = 1e-12;
+
+double largest(const glm::dvec3& x) { return std::max({x.x, x.y, x.z}); }
+double least(const glm::dvec3& x) { return std::min({x.x, x.y, x.z}); }
+double sum(const glm::dvec3& x) { return x.x + x.y + x.z; }
+
+// v = 1 + M 1 + M^2 1 + ... until w = v - M v is positive everywhere; v and w, or nothing. `multiply(x, out)`
+// is the product with M or its transpose.
+template <class F>
+bool positivePair(F&& multiply, std::vector<glm::dvec3>& v, std::vector<glm::dvec3>& w) {
+  std::fill(v.begin(), v.end(), glm::dvec3(1.0));
+  for (int k = 0; k < kMostSums; ++k) {
+    multiply(v, w);
+    double low = kNoBound;
+    for (std::size_t q = 0; q < v.size(); ++q)
+      low = std::min(low, least(1.0 - w[q] * (1 + kRounding) / v[q]));
+    if (low > kRounding) {
+      for (std::size_t q = 0; q < v.size(); ++q) w[q] = v[q] - w[q] * (1 + kRounding);
+      return true;
+    }
+    for (std::size_t q = 0; q < v.size(); ++q) v[q] = 1.0 + w[q];
+  }
+  return false;
+}
+
+}  // namespace
+
+ErrorBounds::ErrorBounds(const PatchMatrix& matrix, const RadiosityState& state)
+    : matrix_(matrix), state_(state), counted_(state.patchCount()) {
+  for (std::size_t q = 0; q < counted_.size(); ++q) {
+    counted_[q] = state.emission()[q] == glm::dvec3(0.0);
+    if (counted_[q]) counted_area_ += state.area()[q];
+  }
+  capTotal();
+}
+
+void ErrorBounds::multiply(const Field& x, Field& out) const {
+  matrix_.product(x, out);
+  for (std::size_t q = 0; q < out.size(); ++q) out[q] *= state_.reflectance()[q];
+}
+
+ErrorBounds::Field ErrorBounds::reflected(Field x) const {
+  for (std::size_t q = 0; q < x.size(); ++q) x[q] *= state_.reflectance()[q];
+  return x;
+}
+
+// z, and 1 where errors count.
+ErrorBounds::Field ErrorBounds::countedPlus(const Field& z) const {
+  Field out = z;
+  for (std::size_t q = 0; q < out.size(); ++q) out[q] += counted_[q] ? 1.0 : 0.0;
+  return out;
+}
+
+// A column that is not known matters unless its patch never holds anything: it reflects none, or no light
+// comes.
+bool ErrorBounds::allColumnsThatMatter() const {
+  for (std::uint32_t q = 0; q < matrix_.size(); ++q) {
+    if (matrix_.knows(q)) continue;
+    if (state_.unshot()[q] != glm::dvec3(0.0)) return false;
+    if (state_.reflectance()[q] != glm::dvec3(0.0) && matrix_.reaches(q)) return false;
+  }
+  return true;
+}
+
+// What holds whatever the columns are: none passes on more than its share of the largest reflectance.
+void ErrorBounds::capTotal() {
+  glm::dvec3 rho(0.0);
+  for (const glm::dvec3& r : state_.reflectance()) rho = glm::max(rho, r);
+  rho *= matrix_.largestSent();
+  z_.clear();
+  if (largest(rho) < 1) z_.assign(matrix_.size(), rho / (1.0 - rho));
+}
+
+// Where that is none, but all columns are known: a multiple of some y > M^T y.
+void ErrorBounds::startTotal() {
+  Field y(matrix_.size()), w(matrix_.size());
+  const auto multiplyTransposed = [&](const Field& x, Field& out) { matrix_.transposed(reflected(x), out); };
+  if (!positivePair(multiplyTransposed, y, w)) return;
+  Field needed(matrix_.size());
+  multiplyTransposed(countedPlus(Field(matrix_.size(), glm::dvec3(0.0))), needed);
+  glm::dvec3 factor(0.0);
+  for (std::size_t q = 0; q < y.size(); ++q) factor = glm::max(factor, needed[q] / w[q]);
+  for (glm::dvec3& x : y) x *= factor * (1 + kRounding);
+  z_ = std::move(y);
+}
+
+bool ErrorBounds::lowerTotal() {
+  const Field x = reflected(countedPlus(z_));
+  glm::dvec3 most(0.0);
+  for (const glm::dvec3& value : x) most = glm::max(most, value);
+  most *= matrix_.largestSent();
+  double before = 0, after = 0;
+  Field lower(z_.size());
+  for (std::uint32_t q = 0; q < z_.size(); ++q) {
+    // An unknown column that does not matter carries nothing.
+    const glm::dvec3 sent = matrix_.knows(q) ? matrix_.transposed(q, x) * (1 + kRounding)
+                            : complete_      ? glm::dvec3(0.0)
+                                             : most;
+    lower[q] = glm::min(z_[q], sent);
+    before += state_.area()[q] * sum(z_[q]);
+    after += state_.area()[q] * sum(lower[q]);
+  }
+  z_ = std::move(lower);
+  return after < (1 - kGain) * before;
+}
+
+void ErrorBounds::startComparison() {
+  v_.assign(matrix_.size(), glm::dvec3(1.0));
+  w_.resize(matrix_.size());
+  if (!positivePair([&](const Field& x, Field& out) { multiply(x, out); }, v_, w_)) {
+    v_.clear();
+    return;
+  }
+  // So that w >= 1, which lowerComparison keeps.
+  double low = kNoBound;
+  for (const glm::dvec3& x : w_) low = std::min(low, least(x));
+  for (glm::dvec3& x : v_) x /= low;
+}
+
+// v <- min(v, 1 + M v) keeps w >= 1.
+bool ErrorBounds::lowerComparison() {
+  Field image(v_.size());
+  multiply(v_, image);
+  double before = 0, after = 0;
+  for (std::size_t q = 0; q < v_.size(); ++q) {
+    before += state_.area()[q] * sum(v_[q]);
+    v_[q] = glm::min(v_[q], 1.0 + image[q] * (1 + kRounding));
+    after += state_.area()[q] * sum(v_[q]);
+  }
+  return after < (1 - kGain) * before;
+}
+
+// Steps of the power method; min and max of (M x) / x bracket the radius for every positive x.
+void ErrorBounds::bracketRadius() {
+  if (spectral_.size() != matrix_.size()) spectral_ = state_.reflectance();
+  Field image(spectral_.size());
+  for (int k = 0; k < 2; ++k) {
+    multiply(spectral_, image);
+    for (int c = 0; c < 3; ++c) {
+      double low = kNoBound, high = 0, most = 0;
+      for (std::size_t q = 0; q < image.size(); ++q) {
+        most = std::max(most, image[q][c]);
+        if (spectral_[q][c] <= 0) continue;
+        low = std::min(low, image[q][c] / spectral_[q][c]);
+        high = std::max(high, image[q][c] / spectral_[q][c]);
+      }
+      radius_lower_[c] = low < kNoBound ? low : 0;
+      radius_upper_[c] = high;
+      for (std::size_t q = 0; q < image.size(); ++q) spectral_[q][c] = most > 0 ? image[q][c] / most : 0;
+    }
+  }
+}
+
+void ErrorBounds::columnChanged(std::uint32_t q) {
+  if (z_.empty() || !matrix_.knows(q)) return;
+  const glm::dvec3 sent = matrix_.transposed(q, reflected(countedPlus(z_))) * (1 + kRounding);
+  if (largest(sent - z_[q]) > 0) capTotal();
+}
+
+bool ErrorBounds::refresh() {
+  if (version_ != matrix_.version()) {
+    version_ = matrix_.version();
+    complete_ = allColumnsThatMatter();
+  }
+  if (z_.empty() && complete_) startTotal();
+  if (!complete_) v_.clear();
+  if (complete_ && compared_version_ != matrix_.version()) startComparison();
+  bool gains = false;
+  for (int k = 0; k < kProductsAtOnce; ++k) {
+    gains = !z_.empty() && lowerTotal();
+    if (!v_.empty()) gains = lowerComparison() || gains;
+    if (!gains) break;
+  }
+  if (v_.empty()) return gains;
+  w_.resize(v_.size());
+  multiply(v_, w_);
+  double low = kNoBound;
+  for (std::size_t q = 0; q < w_.size(); ++q) {
+    w_[q] = v_[q] - w_[q] * (1 + kRounding);
+    low = std::min(low, least(w_[q]));
+  }
+  if (low <= 0) v_.clear();
+  compared_version_ = matrix_.version();
+  bracketRadius();
+  return gains;
+}
+
+ErrorBounds::Field ErrorBounds::radiosityNow() const {
+  Field out(state_.patchCount());
+  for (std::size_t q = 0; q < out.size(); ++q) out[q] = state_.shot()[q] + state_.unshot()[q];
+  return out;
+}
+
+double ErrorBounds::rmsCounted(const Field& x) const {
+  double squares = 0;
+  for (std::size_t q = 0; q < x.size(); ++q) {
+    if (counted_[q]) squares += state_.area()[q] * sum(x[q] * x[q]);
+  }
+  return counted_area_ > 0 ? std::sqrt(squares / (3 * counted_area_)) : 0;
+}
+
+double ErrorBounds::totalUpper() const {
+  if (z_.empty()) return kNoBound;
+  double bound = 0, reflected_now = 0, negative = 0;
+  for (std::size_t q = 0; q < z_.size(); ++q) {
+    const glm::dvec3& u = state_.unshot()[q];
+    bound += state_.area()[q] * sum(glm::abs(u) * z_[q]);
+    negative += state_.area()[q] * sum(glm::max(-u, glm::dvec3(0.0)) * z_[q]);
+    if (counted_[q]) reflected_now += state_.area()[q] * sum(state_.shot()[q] + u);
+  }
+  // What is still to come is at least 0 where U is, so the truth reflects at least this much.
+  const double truth = reflected_now - negative;
+  return truth > 0 ? bound / truth : kNoBound;
+}
+
+SolverBounds ErrorBounds::at() const { return sharpened(0); }
+
+SolverBounds ErrorBounds::sharpened(int products) const {
+  SolverBounds out;
+  out.total_upper = totalUpper();
+  if (!comparable()) return out;
+  const std::size_t n = state_.patchCount();
+  Field rest(n), sum_of_powers(n, glm::dvec3(0.0)), image(n);
+  double low = 0, high = 0;
+  for (std::size_t q = 0; q < n; ++q) {
+    rest[q] = glm::abs(state_.unshot()[q]);
+    low = std::min(low, least(state_.unshot()[q]));
+    high = std::max(high, largest(rest[q]));
+  }
+  for (int k = 0; k < products; ++k) {
+    multiply(rest, image);
+    std::swap(rest, image);
+    for (std::size_t q = 0; q < n; ++q) sum_of_powers[q] += rest[q];
+  }
+  glm::dvec3 factor(0.0);
+  for (std::size_t q = 0; q < n; ++q) factor = glm::max(factor, rest[q] / w_[q]);
+  Field above(n);
+  for (std::size_t q = 0; q < n; ++q) {
+    above[q] = sum_of_powers[q] * (1 + kRounding) + factor * glm::max(v_[q] - w_[q], glm::dvec3(0.0));
+  }
+  const double now = rmsCounted(radiosityNow()), error = rmsCounted(above);
+  if (now > error) out.upper = error / (now - error);
+  if (products > 0 && low >= -kSignless * high && now + error > 0) {
+    out.lower = rmsCounted(sum_of_powers) * (1 - kRounding) / (now + error);
+  }
+  return out;
+}
+
+}  // namespace unshot

@@ -1,0 +1,87 @@
+// How far the state of a solve is from the exact solution of its discrete system: bounds, at every step, for
+// any sign of U, walls of reflectance 1 and form factors that are not reciprocal.
+//
+// With e = B* - B the error of the patches' radiosity (B = S + U), e = (I - M)^-1 M U.
+//
+// Total: with weights z >= M^T (1 + z), sum A |e| <= sum A |U| z. M^T is known as far as columns are; what an
+// unknown column could reflect at most stands in its place, so this bound holds from the first shot on. An
+// iteration z <- M^T (1 + z) keeps the inequality and lowers z.
+//
+// Per patch, once all columns that matter are known: with v > 0 and w = v - M v > 0, |e| <= (v - w) max |U| /
+// w (comparison; Varga, Matrix Iterative Analysis, 3.5). v is near the solution of (I - M) v = 1: the
+// expected number of patches that light leaving a patch meets, itself included. Powers of M on |U| sharpen
+// it.
+//
+// Errors count on patches without emission of their own, weighted by area, over channels.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "solver/patch_matrix.h"
+#include "solver/state.h"
+
+namespace unshot {
+
+inline constexpr double kNoBound = std::numeric_limits<double>::infinity();
+
+struct SolverBounds {
+  double total_upper = kNoBound;  ///< sum A |e| / sum A (B* - E) is at most this
+  double upper = kNoBound;        ///< RMS e / RMS (B* - E) is at most this
+  double lower = 0;               ///< and at least this; above 0 only where U >= 0
+};
+
+class ErrorBounds {
+ public:
+  /// Both outlive the bounds; `matrix` is that of the state's transport.
+  ErrorBounds(const PatchMatrix& matrix, const RadiosityState& state);
+
+  /// Column q of the matrix is new or better than before.
+  void columnChanged(std::uint32_t q);
+  /// Takes up what the matrix has learnt and lowers the weights; some products with the matrix. Returns
+  /// whether another call would gain.
+  bool refresh();
+  /// The bounds of the present state; passes over the patches.
+  SolverBounds at() const;
+  /// Sharper, by `products` products with the matrix.
+  SolverBounds sharpened(int products) const;
+
+  /// Whether all columns that matter are known, so that there may be a bound per patch.
+  bool complete() const { return complete_; }
+  /// v, one per patch; empty where there is none.
+  const std::vector<glm::dvec3>& expectedBounces() const { return v_; }
+  /// Lower and upper bound of the spectral radius of M, per channel (Collatz and Wielandt); once complete.
+  const glm::dvec3& spectralRadiusLower() const { return radius_lower_; }
+  const glm::dvec3& spectralRadiusUpper() const { return radius_upper_; }
+
+ private:
+  using Field = std::vector<glm::dvec3>;
+
+  bool comparable() const { return !v_.empty() && compared_version_ == matrix_.version(); }
+  bool allColumnsThatMatter() const;
+  void multiply(const Field& x, Field& out) const;
+  Field reflected(Field x) const;
+  Field countedPlus(const Field& z) const;
+  void capTotal();
+  void startTotal();
+  bool lowerTotal();
+  void startComparison();
+  bool lowerComparison();
+  void bracketRadius();
+  double totalUpper() const;
+  double rmsCounted(const Field& x) const;
+  Field radiosityNow() const;
+
+  const PatchMatrix& matrix_;
+  const RadiosityState& state_;
+  std::vector<char> counted_;  // patches without emission of their own
+  double counted_area_ = 0;
+  bool complete_ = false;
+  std::uint64_t version_ = 0;                           // of the matrix at the last refresh
+  std::uint64_t compared_version_ = ~std::uint64_t{0};  // of the matrix that w_ belongs to
+  Field z_;                                             // empty: no bound
+  Field v_, w_, spectral_;
+  glm::dvec3 radius_lower_{0.0}, radius_upper_{kNoBound};
+};
+
+}  // namespace unshot

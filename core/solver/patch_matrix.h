@@ -1,0 +1,58 @@
+// P = R K among patches, as far as columns of K are known: what error bounds and estimates are worked out
+// with, beside the solution and a good deal cheaper than with K itself.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "formfactor/transport.h"
+
+namespace unshot {
+
+class PatchMatrix {
+ public:
+  /// `budget`: bytes that columns may take together; those beyond it stay unknown.
+  PatchMatrix(const Receivers& receivers, std::span<const double> area, std::size_t budget);
+
+  /// Column q of K, new or better than before.
+  void set(std::uint32_t q, const Column& column);
+  bool knows(std::uint32_t q) const { return known_[q] != 0; }
+  /// Whether light of a known column arrives at patch p.
+  bool reaches(std::uint32_t p) const { return reached_[p] != 0; }
+  std::size_t size() const { return known_.size(); }
+  std::size_t knownCount() const { return known_count_; }
+  std::size_t bytes() const { return bytes_; }
+  std::size_t entryCount() const { return bytes_ / sizeof(Entry); }
+  /// One more at each set().
+  std::uint64_t version() const { return version_; }
+  /// The largest share of its light that a known patch sends to others: 1 but for approximation.
+  double largestSent() const { return largest_sent_; }
+
+  /// out_p = sum_q P_pq x_q over known columns.
+  void product(std::span<const glm::dvec3> x, std::span<glm::dvec3> out) const;
+  /// out_q = sum_p A_p P_pq x_p / A_q: the mean of x where patch q's light arrives; 0 for unknown columns.
+  void transposed(std::span<const glm::dvec3> x, std::span<glm::dvec3> out) const;
+  /// The same for one known patch.
+  glm::dvec3 transposed(std::uint32_t q, std::span<const glm::dvec3> x) const;
+  double area(std::uint32_t q) const { return area_[q]; }
+
+ private:
+  struct Entry {
+    std::uint32_t patch;
+    float value;
+  };
+
+  const Receivers& receivers_;
+  std::span<const double> area_;
+  std::size_t budget_, bytes_ = 0, known_count_ = 0;
+  std::uint64_t version_ = 0;
+  double largest_sent_ = 1;
+  std::vector<std::vector<Entry>> columns_;
+  std::vector<char> known_, reached_;
+  std::vector<double> sum_;
+  std::vector<std::uint32_t> touched_;
+};
+
+}  // namespace unshot
