@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <numeric>
 
 namespace unshot {
 namespace {
@@ -48,6 +49,10 @@ ErrorBounds::ErrorBounds(const PatchMatrix& matrix, const RadiosityState& state)
   for (std::size_t q = 0; q < counted_.size(); ++q) {
     counted_[q] = state.emission()[q] == glm::dvec3(0.0);
     if (counted_[q]) counted_area_ += state.area()[q];
+  }
+  if (counted_area_ == 0) {  // everything emits
+    std::fill(counted_.begin(), counted_.end(), 1);
+    counted_area_ = std::accumulate(state.area().begin(), state.area().end(), 0.0);
   }
   capTotal();
 }
@@ -203,9 +208,9 @@ bool ErrorBounds::refresh() {
   return gains;
 }
 
-ErrorBounds::Field ErrorBounds::radiosityNow() const {
+ErrorBounds::Field ErrorBounds::reflectedNow() const {
   Field out(state_.patchCount());
-  for (std::size_t q = 0; q < out.size(); ++q) out[q] = state_.shot()[q] + state_.unshot()[q];
+  for (std::size_t q = 0; q < out.size(); ++q) out[q] = state_.shot()[q] + state_.unshot()[q] - state_.emission()[q];
   return out;
 }
 
@@ -224,7 +229,7 @@ double ErrorBounds::totalUpper() const {
     const glm::dvec3& u = state_.unshot()[q];
     bound += state_.area()[q] * sum(glm::abs(u) * z_[q]);
     negative += state_.area()[q] * sum(glm::max(-u, glm::dvec3(0.0)) * z_[q]);
-    if (counted_[q]) reflected_now += state_.area()[q] * sum(state_.shot()[q] + u);
+    if (counted_[q]) reflected_now += state_.area()[q] * sum(state_.shot()[q] + u - state_.emission()[q]);
   }
   // What is still to come is at least 0 where U is, so the truth reflects at least this much.
   const double truth = reflected_now - negative;
@@ -256,7 +261,7 @@ SolverBounds ErrorBounds::sharpened(int products) const {
   for (std::size_t q = 0; q < n; ++q) {
     above[q] = sum_of_powers[q] * (1 + kRounding) + factor * glm::max(v_[q] - w_[q], glm::dvec3(0.0));
   }
-  const double now = rmsCounted(radiosityNow()), error = rmsCounted(above);
+  const double now = rmsCounted(reflectedNow()), error = rmsCounted(above);
   if (now > error) out.upper = error / (now - error);
   if (products > 0 && low >= -kSignless * high && now + error > 0) {
     out.lower = rmsCounted(sum_of_powers) * (1 - kRounding) / (now + error);

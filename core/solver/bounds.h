@@ -12,7 +12,7 @@
 // expected number of patches that light leaving a patch meets, itself included. Powers of M on |U| sharpen
 // it.
 //
-// Errors count on patches without emission of their own, weighted by area, over channels.
+// Errors count on patches without emission of their own (on all, where all emit), weighted by area, over channels.
 #pragma once
 
 #include <limits>
@@ -70,11 +70,11 @@ class ErrorBounds {
   void bracketRadius();
   double totalUpper() const;
   double rmsCounted(const Field& x) const;
-  Field radiosityNow() const;
+  Field reflectedNow() const;
 
   const PatchMatrix& matrix_;
   const RadiosityState& state_;
-  std::vector<char> counted_;  // patches without emission of their own
+  std::vector<char> counted_;  // patches on which errors count
   double counted_area_ = 0;
   bool complete_ = false;
   std::uint64_t version_ = 0;                           // of the matrix at the last refresh

@@ -45,7 +45,7 @@ TEST(Solve, ValidatesModeAndErrorAndKeepsThemWhereTheyAreBad) {
 }
 
 TEST(Solve, RunsAgainForASmallerErrorAndEndsForALargerOne) {
-  const auto solve = begin(asset("cornell_box.obj"), 0.3);
+  const auto solve = begin(asset("furnace.obj"), 0.3);
   finish(*solve);
   ASSERT_EQ(solve->state(), SolveState::kConverged);
   const Measures first = solve->measures();
