@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "export/csv_table.h"
+#include "base/csv_table.h"
 #include "export/probes.h"
 
 namespace unshot::testing_support {
