@@ -12,7 +12,9 @@
 namespace unshot {
 namespace {
 
-constexpr std::uint64_t kPilotBatches = 16;       // that may find light before a side counts as dark
+constexpr std::uint64_t kPilotBatches = 32;  // that may find light before a side counts as dark
+// A ray that meets a wall in its very edge may end up on the other side, once in some million.
+constexpr int kBatchesThatFindLight = 2;
 constexpr std::size_t kCandidatesPerPoint = 100;  // before the search is given up
 constexpr double kLeastCosine = 0.5;              // between the normals of a place and of its side
 constexpr double kReachOfDiagonal = 2e-3;         // of a place to its side
@@ -47,10 +49,11 @@ class PointChooser {
   }
 
   bool isReached(const ReferencePoint& point, std::uint64_t stream) const {
+    const glm::dvec3 position = point.position - scene_.frame_origin;
+    int found = 0;
     for (std::uint64_t batch = 0; batch < kPilotBatches; ++batch) {
-      const glm::dvec3 h =
-          tracer_.irradiance(point.position - scene_.frame_origin, point.normal, stream, batch);
-      if (point.reflectance * h != glm::dvec3(0.0)) return true;
+      const glm::dvec3 h = tracer_.irradiance(position, point.normal, stream, batch);
+      if (point.reflectance * h != glm::dvec3(0.0) && ++found == kBatchesThatFindLight) return true;
     }
     return false;
   }

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "base/csv_table.h"
 #include "bench/text_table.h"
 #include "support/run_program.h"
 #include "support/truth.h"

@@ -2,7 +2,6 @@
 #include "report/reference_file.h"
 
 #include <gmock/gmock.h>
-
 #include <sys/stat.h>
 
 #include "support/error_of.h"
@@ -130,7 +129,8 @@ TEST(ReferenceFile, IsTracedAgainWhereItIsDamaged) {
   const std::string cut = text.substr(0, text.size() - 30);
   std::string row_less = text;
   row_less.erase(row_less.rfind('\n', row_less.size() - 2) + 1);
-  for (const std::string& damaged : {digit, cut, row_less, std::string("x"), std::string(), std::string(99, '\0')}) {
+  for (const std::string& damaged :
+       {digit, cut, row_less, std::string("x"), std::string(), std::string(99, '\0')}) {
     folder.write(name, damaged);
     const Reference again = cachedReference(scene, small(), folder.path());
     EXPECT_FALSE(again.from_file);
@@ -171,11 +171,12 @@ TEST(ReferenceFile, MayComeFromElsewhere) {
   EXPECT_EQ(points[0].normal, glm::dvec3(0, 0, 1));
   EXPECT_EQ(points[0].radiosity, glm::dvec3(0.5, 0.25, 0.125));
   EXPECT_EQ(points[0].standard_error, glm::dvec3(0.0));
-  const Error column = errorOf([&] { readReferencePoints(folder.write("a.csv", "x,y,z,nx,ny,nz\n0,0,0,0,0,1\n")); });
+  const Error column =
+      errorOf([&] { readReferencePoints(folder.write("a.csv", "x,y,z,nx,ny,nz\n0,0,0,0,0,1\n")); });
   EXPECT_THAT(column.what(), HasSubstr("E_r"));
   const Error number = errorOf([&] {
-    readReferencePoints(folder.write(
-        "b.csv", "x,y,z,nx,ny,nz,E_r,E_g,E_b,B_r,B_g,B_b\n0,0,0,0,0,1,0,0,0,nan,0,0\n"));
+    readReferencePoints(
+        folder.write("b.csv", "x,y,z,nx,ny,nz,E_r,E_g,E_b,B_r,B_g,B_b\n0,0,0,0,0,1,0,0,0,nan,0,0\n"));
   });
   EXPECT_THAT(number.where(), HasSubstr("b.csv:2"));
 }

@@ -62,7 +62,8 @@ TEST(ReferencePoints, LieOnReflectingSidesThatDoNotShineAndThatLightReaches) {
 TEST(ReferencePoints, StayOutOfDarkRooms) {
   ReferenceOptions options;
   options.points = 100;
-  for (const ReferencePoint& p : chooseReferencePoints(litAndDarkRoom(), options)) EXPECT_LT(p.position.x, 1.001);
+  for (const ReferencePoint& p : chooseReferencePoints(litAndDarkRoom(), options))
+    EXPECT_LT(p.position.x, 1.001);
 }
 
 TEST(ReferencePoints, TakeEmittingSidesWhereThereAreNoOthers) {
