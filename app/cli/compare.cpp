@@ -3,12 +3,12 @@
 #include <optional>
 #include <string>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/compare_files.h"
 #include "cli/text.h"
 #include "exit_codes.h"
-#include "export/atomic_file.h"
 #include "export/image_files.h"
 #include "report/difference.h"
 

@@ -4,11 +4,11 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "base/csv_table.h"
 #include "base/error.h"
-#include "export/csv_table.h"
+#include "base/read_file.h"
 #include "export/image_files.h"
 #include "export/ply.h"
-#include "export/read_file.h"
 
 namespace unshot {
 namespace {

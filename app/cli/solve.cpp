@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/atomic_file.h"
 #include "base/clock.h"
 #include "cli/commands.h"
 #include "cli/gl_context.h"
@@ -18,7 +19,6 @@
 #include "cli/summary.h"
 #include "cli/text.h"
 #include "exit_codes.h"
-#include "export/atomic_file.h"
 #include "report/report_json.h"
 #include "scene/obj_reader.h"
 

@@ -4,9 +4,9 @@
 #include <cctype>
 #include <glm/geometric.hpp>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/parse.h"
-#include "export/atomic_file.h"
 #include "render/display_modes.h"
 
 namespace unshot {

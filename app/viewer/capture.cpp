@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "export/atomic_file.h"
+#include "base/atomic_file.h"
 #include "export/image_files.h"
 #include "viewer/panels.h"
 #include "viewer/viewer.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "export/atomic_file.h"
+#include "base/atomic_file.h"
 #include "export/image_files.h"
 #include "export/ply.h"
 

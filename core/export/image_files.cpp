@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/read_file.h"
 #include "base/srgb.h"
-#include "export/atomic_file.h"
-#include "export/read_file.h"
 
 namespace unshot {
 namespace {

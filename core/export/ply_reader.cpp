@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "base/parse.h"
+#include "base/read_file.h"
 #include "export/ply.h"
-#include "export/read_file.h"
 
 namespace unshot {
 namespace {

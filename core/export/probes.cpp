@@ -3,8 +3,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "base/csv_table.h"
 #include "base/error.h"
-#include "export/csv_table.h"
 #include "rays/nearest_triangle.h"
 
 namespace unshot {

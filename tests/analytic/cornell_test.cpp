@@ -12,40 +12,33 @@ namespace {
 
 using namespace testing_support;
 
-using Values = std::vector<std::optional<glm::dvec3>>;
-
 // The aim of the program on this scene, 5 %, and a tighter one that holds; 1.3 % are measured, of which about
 // 0.3 % are the reference's own noise.
 constexpr double kAsked = 0.05, kHeld = 0.03;
 
-std::vector<TruthPoint> truth(const std::string& bounces = {}) {
-  return readTruth(std::filesystem::path(UNSHOT_TEST_DATA) / ("cornell_published" + bounces + ".csv"));
-}
-
-Values valuesOf(const std::vector<TruthPoint>& points) {
-  Values out;
-  for (const TruthPoint& p : points) out.emplace_back(p.radiosity);
-  return out;
+Truth truth(const std::string& bounces = {}) {
+  return readReferencePoints(std::filesystem::path(UNSHOT_TEST_DATA) /
+                             ("cornell_published" + bounces + ".csv"));
 }
 
 TEST(CornellBox, RefusesAReferenceThatLacksBounces) {
-  const std::vector<TruthPoint> full = truth();
+  const Truth full = truth();
   EXPECT_TRUE(isFaithful(full, valuesOf(full), kHeld));
   for (const std::string bounces : {"_direct", "_2bounce"}) {
-    const std::vector<TruthPoint> part = truth(bounces);
+    const Truth part = truth(bounces);
     ASSERT_EQ(part.size(), full.size());
-    for (std::size_t k = 0; k < full.size(); ++k) ASSERT_EQ(part[k].at.position, full[k].at.position);
+    for (std::size_t k = 0; k < full.size(); ++k) ASSERT_EQ(part[k].position, full[k].position);
     measured(bounces, reflectedError(full, valuesOf(part)));
     EXPECT_FALSE(isFaithful(full, valuesOf(part), kAsked)) << bounces;
   }
 }
 
 // Mean over the points of the blocks' sides that face red (+x) or green (-x).
-glm::dvec3 meanOfBlockSide(const std::vector<TruthPoint>& points, const Values& values, bool red) {
+glm::dvec3 meanOfBlockSide(const Truth& points, const Values& values, bool red) {
   glm::dvec3 sum(0.0);
   int count = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const glm::dvec3 &p = points[k].at.position, n = points[k].at.normal;
+    const glm::dvec3 &p = points[k].position, n = points[k].normal;
     if (points[k].material != "white" || p.y < 1 || p.y > 331 || p.z > 558) continue;
     if ((red ? n.x : -n.x) < 0.5) continue;
     sum += values[k].value_or(glm::dvec3(0.0));
@@ -57,7 +50,7 @@ glm::dvec3 meanOfBlockSide(const std::vector<TruthPoint>& points, const Values& 
 
 TEST(CornellBox, HasTheReflectedLightAndColourBleedingOfTheReference) {
   const auto solve = solved(publishedCornellBox(), optionsOf("hemicube", 10'000, 0.002));
-  const std::vector<TruthPoint> points = truth();
+  const Truth points = truth();
   const std::vector<Probe> probes = probesOf(points);
   const Values values = answerProbes(solve->snapshot(), probes, false);
   std::size_t without = 0;

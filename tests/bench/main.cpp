@@ -7,6 +7,7 @@
 
 #include "bench/frame_table.h"
 #include "bench/picture_table.h"
+#include "bench/reference_table.h"
 #include "bench/scene_table.h"
 
 namespace {
@@ -59,7 +60,7 @@ int main(int argc, char** argv) {
           "usage: unshot_bench [--seconds T] [--quick] [--only TABLE]\n"
           "  --seconds T  time for each scene (default 10)\n"
           "  --quick      a short run that only shows that everything works\n"
-          "  --only T     one table: pictures, scenes or frames\n"
+          "  --only T     one table: pictures, scenes, frames or reference\n"
           "UNSHOT_SCENES names a folder of further scenes, with reference values in its folder truth.\n");
       return 2;
     }
@@ -69,6 +70,7 @@ int main(int argc, char** argv) {
     if (wanted("pictures")) printPictures(quick);
     if (wanted("scenes")) printScenes(quick, seconds);
     if (wanted("frames")) printFrames(quick);
+    if (wanted("reference")) unshot::bench::printReferenceTable(quick ? 8 : 256, quick ? 0.3 : 0.01);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "unshot_bench: %s\n", error.what());
     return 1;

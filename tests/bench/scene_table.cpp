@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "base/csv_table.h"
 #include "bench/text_table.h"
 #include "support/run_program.h"
 #include "support/truth.h"
@@ -14,7 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing_support::TempFolder;
-using testing_support::TruthPoint;
 
 // The word after `key` in the comments of a file of reference values; empty where there is none.
 std::string commentValue(const fs::path& file, const std::string& key) {
@@ -65,7 +65,7 @@ std::vector<Job> jobsOf(const fs::path& folder) {
 
 std::string errorOf(const Job& job, const fs::path& answers) {
   if (job.truth.empty() || !fs::exists(answers)) return "-";
-  const std::vector<TruthPoint> truth = testing_support::readTruth(job.truth);
+  const testing_support::Truth truth = readReferencePoints(job.truth);
   const CsvTable table = readCsv(answers);
   std::vector<std::optional<glm::dvec3>> values;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {

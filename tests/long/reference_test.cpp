@@ -2,10 +2,12 @@
 // it is not set.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
 #include "scene/obj_reader.h"
+#include "support/deviations.h"
 #include "support/solving.h"
 #include "support/test_scenes.h"
 #include "support/truth.h"
@@ -21,7 +23,7 @@ double errorAgainst(const fs::path& scene, const fs::path& reference, std::uint6
   SolveOptions options = optionsOf("hemicube", elements, 0.003);
   options.emit_front_only = front_only;
   const auto solve = solved(readObj(scene), options);
-  const std::vector<TruthPoint> truth = readTruth(reference);
+  const Truth truth = readReferencePoints(reference);
   const double error = reflectedError(truth, answerProbes(solve->snapshot(), probesOf(truth), false));
   measured(scene.filename().string() + ", " + std::to_string(elements) + " elements, nRMSE", error);
   return error;
@@ -68,6 +70,36 @@ TEST_P(SharedScene, MeetsItsReference) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SharedScene, testing::ValuesIn(kShared),
+                         [](const auto& row) { return row.param.name; });
+
+// The program's own path tracer against an independent one, in units of both standard errors.
+class TracedScene : public testing::TestWithParam<Shared> {};
+
+TEST_P(TracedScene, AgreesWithItsReference) {
+  const char* folder = std::getenv("UNSHOT_SCENES");
+  if (!folder) GTEST_SKIP() << "UNSHOT_SCENES is not set";
+  const Shared& s = GetParam();
+  const Truth truth = readReferencePoints(fs::path(folder) / s.reference);
+  ReferenceOptions options;
+  options.places = placesOf(truth);
+  options.emit_front_only = s.front_only;
+  options.relative_error = 0.004;
+  const Reference reference = traceReference(readObj(fs::path(folder) / s.scene), options);
+  Deviations deviations;
+  for (std::size_t k = 0; k < truth.size(); ++k) {
+    const ReferencePoint& ours = reference.points[k];
+    if (ours.emission != glm::dvec3(0.0)) continue;
+    deviations.add(ours.radiosity.x, truth[k].radiosity.x,
+                   std::hypot(ours.standard_error.x, truth[k].standard_error.x));
+  }
+  measured("mean square of deviation / standard error", deviations.meanSquare());
+  measured("worst of them", deviations.worst);
+  EXPECT_GT(deviations.meanSquare(), 0.7);
+  EXPECT_LT(deviations.meanSquare(), 1.3);
+  EXPECT_LT(deviations.worst, 5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, TracedScene, testing::ValuesIn(kShared),
                          [](const auto& row) { return row.param.name; });
 
 }  // namespace

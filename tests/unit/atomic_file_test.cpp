@@ -1,4 +1,4 @@
-#include "export/atomic_file.h"
+#include "base/atomic_file.h"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -8,9 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <functional>
-
-#include "base/error.h"
+#include "support/error_of.h"
 #include "support/temp_folder.h"
 
 namespace unshot {
@@ -18,17 +16,8 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing_support::errorOf;
 using testing_support::TempFolder;
-
-Error errorOf(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error;
-  }
-  ADD_FAILURE() << "no Error";
-  return Error(ErrorKind::kInternal, "none");
-}
 
 TEST(AtomicFile, WritesAndReplacesAWholeFile) {
   const TempFolder folder;

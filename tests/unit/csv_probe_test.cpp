@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "base/csv_table.h"
 #include "base/error.h"
-#include "export/csv_table.h"
 #include "export/probes.h"
 #include "support/synthetic_room.h"
 #include "support/temp_folder.h"

@@ -1,11 +1,11 @@
-#include "export/csv_table.h"
+#include "base/csv_table.h"
 
 #include <algorithm>
 #include <charconv>
 
 #include "base/error.h"
 #include "base/parse.h"
-#include "export/read_file.h"
+#include "base/read_file.h"
 
 namespace unshot {
 namespace {

@@ -1,0 +1,32 @@
+#include "mesh/mesh_rays.h"
+
+#include <algorithm>
+
+namespace unshot {
+namespace {
+
+SceneRays raysOf(const Mesh& mesh) {
+  std::vector<std::uint32_t> corners;
+  corners.reserve(3 * mesh.triangles.size());
+  for (const ChartTriangle& t : mesh.triangles) corners.insert(corners.end(), t.position, t.position + 3);
+  return {mesh.positions, corners};
+}
+
+}  // namespace
+
+MeshRays::MeshRays(const Mesh& mesh) : mesh_(mesh), rays_(raysOf(mesh)), surface_of_(mesh.triangles.size()) {
+  for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
+    const Range& range = mesh.surfaces[s].triangles;
+    std::fill_n(surface_of_.begin() + range.first, range.count, s);
+  }
+}
+
+std::optional<MeshRays::Hit> MeshRays::intersect(const glm::dvec3& origin,
+                                                 const glm::dvec3& direction) const {
+  const std::optional<SceneRays::Hit> at = rays_.intersect(origin, direction);
+  if (!at) return std::nullopt;
+  const std::uint32_t surface = surface_of_[at->triangle];
+  return Hit{*at, surface, mesh_.surfaces[surface].side[at->back]};
+}
+
+}  // namespace unshot

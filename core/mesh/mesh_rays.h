@@ -1,0 +1,37 @@
+// Rays against the surfaces of a mesh, independent of its fineness.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "rays/scene_rays.h"
+
+namespace unshot {
+
+/// SceneRays of a mesh: its triangles are Mesh::triangles, so a hit's `back` is the back of its surface.
+class MeshRays {
+ public:
+  struct Hit {
+    SceneRays::Hit at;
+    std::uint32_t surface = 0;
+    std::uint32_t side = kNone;  ///< in Mesh::sides; kNone where the mesh has it that no light reaches it
+  };
+
+  /// Keeps a reference to the mesh, which must outlive it.
+  explicit MeshRays(const Mesh& mesh);
+
+  /// The first surface along the ray (`direction` of unit length). Any thread.
+  std::optional<Hit> intersect(const glm::dvec3& origin, const glm::dvec3& direction) const;
+  /// For lifted(), occluded() and points on triangles.
+  const SceneRays& rays() const { return rays_; }
+  /// Surface of each of Mesh::triangles.
+  std::uint32_t surfaceOf(std::uint32_t triangle) const { return surface_of_[triangle]; }
+
+ private:
+  const Mesh& mesh_;
+  SceneRays rays_;
+  std::vector<std::uint32_t> surface_of_;
+};
+
+}  // namespace unshot
