@@ -26,6 +26,7 @@ void checkError(double error) {
 
 std::vector<glm::dvec3> perPatch(const Mesh& mesh, glm::dvec3 Side::*member) {
   std::vector<glm::dvec3> out;
+  out.reserve(mesh.patch_count);
   for (const std::uint32_t side : mesh.patch_side) out.push_back(mesh.sides[side].*member);
   return out;
 }
@@ -62,8 +63,8 @@ struct Solve::Impl {
   Impl(Scene scene_in, SolveOptions options_in)
       : options(std::move(options_in)), scene(std::move(scene_in)) {}
 
-  void prepare(const std::function<gl::Context&()>& gl);
-  void makeTransport(const std::function<gl::Context&()>& gl);
+  void prepare(const std::function<gl::Context&()>& gl, const CancelToken& cancel);
+  void makeTransport(const std::function<gl::Context&()>& gl, const CancelToken& cancel);
   void chooseMode(const std::string& key);
   void stop(SolveState how, std::string why);
   void fail(ErrorKind kind, std::string why, std::string advice);
@@ -76,10 +77,10 @@ struct Solve::Impl {
   void refineBrightest();
 };
 
-void Solve::Impl::prepare(const std::function<gl::Context&()>& gl) {
+void Solve::Impl::prepare(const std::function<gl::Context&()>& gl, const CancelToken& cancel) {
   checkError(options.error);
   cpu_start = cpuSeconds();
-  Preparation prepared = unshot::prepare(scene, options);
+  Preparation prepared = unshot::prepare(scene, options, cancel);
   mesh = std::move(prepared.mesh);
   form_factors_key = std::move(prepared.form_factors);
   plan = std::move(prepared.plan);
@@ -89,10 +90,13 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl) {
 
   chooseMode(options.mode);
   const double cpu_before_setup = cpuSeconds();
-  makeTransport(gl);
+  cancel.check();
+  makeTransport(gl, cancel);
+  cancel.check();
   cpu_setup = cpuSeconds() - cpu_before_setup;
   state = std::make_unique<RadiosityState>(*transport, perPatch(*mesh, &Side::emission),
                                            perPatch(*mesh, &Side::reflectance));
+  cancel.check();
   ambient = std::make_unique<AmbientTerm>(mesh->patch_count, mesh->patch_air);
   solve_start = wallSeconds();
   if (state->emittedPower() <= 0) {
@@ -103,10 +107,11 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl) {
   history.push_back({measures});
 }
 
-void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl) {
+void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl, const CancelToken& cancel) {
   const FormFactorMethodRow& row = findChoice(formFactorMethods(), form_factors_key, "form-factor method");
   FormFactorSetup setup;
   setup.mesh = mesh.get();
+  setup.cancel = cancel;
   setup.seed = options.seed;
   setup.hemicube_resolution = options.hemicube_resolution;
   setup.gl = [&gl]() -> gl::Context& {
@@ -117,7 +122,8 @@ void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl) {
   std::unique_ptr<FormFactorMethod> method = row.make(setup);
   if (!method->note().empty())
     diagnostics.push_back({Severity::kNote, "form-factor-note", method->note(), {}, {}});
-  Receivers receivers = makeReceivers(*mesh, method->receiverKind());
+  cancel.check();
+  Receivers receivers = makeReceivers(*mesh, method->receiverKind(), cancel);
   transport = std::make_unique<Transport>(std::move(method), std::move(receivers), mesh->patch_area,
                                           options.kept_bytes);
   transport->allowDrafts(options.draft_first);
@@ -233,9 +239,9 @@ void Solve::Impl::refineBrightest() {
   state->replaceColumn(brightest, draft, column);
 }
 
-Solve::Solve(Scene scene, SolveOptions options, std::function<gl::Context&()> gl)
+Solve::Solve(Scene scene, SolveOptions options, std::function<gl::Context&()> gl, const CancelToken& cancel)
     : impl_(std::make_unique<Impl>(std::move(scene), std::move(options))) {
-  impl_->prepare(gl);
+  impl_->prepare(gl, cancel);
 }
 
 Solve::~Solve() = default;
