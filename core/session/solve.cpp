@@ -72,6 +72,7 @@ struct Solve::Impl {
   void wakeClocks();
   void measure();
   void checkLimits();
+  void watch();
   void checkStagnation();
   void record();
   void refineBrightest();
@@ -196,6 +197,12 @@ bool Solve::Impl::nothingDiesOut() const {
   return reflected >= (1 - kStagnationShare) * left;
 }
 
+// From here on the unshot power has to fall.
+void Solve::Impl::watch() {
+  watched_fraction = measures.unshot_fraction;
+  watched_shots = measures.shots;
+}
+
 void Solve::Impl::checkStagnation() {
   if (measures.shots - watched_shots < kStagnationPasses * mesh->patch_count) return;
   if (measures.unshot_fraction > (1 - kStagnationShare) * watched_fraction) {
@@ -210,8 +217,7 @@ void Solve::Impl::checkStagnation() {
            "another --mode or --form-factors");
     }
   }
-  watched_fraction = measures.unshot_fraction;
-  watched_shots = measures.shots;
+  watch();
 }
 
 // A curve needs no more points than a plot has pixels: each is a hundredth further than the last.
@@ -251,6 +257,7 @@ void Solve::step() {
   if (s.progress_state != SolveState::kRunning) return;
   s.wakeClocks();
   bool nothing_left = false;
+  const std::uint64_t refined = s.measures.refined;
   if (s.measures.drafts > 0 && s.measures.unshot_fraction <= s.options.error) {
     s.refineBrightest();
   } else if (const auto shooter = s.mode->step(*s.state, *s.transport)) {
@@ -261,6 +268,7 @@ void Solve::step() {
     if (!nothing_left) s.refineBrightest();
   }
   s.measure();
+  if (s.measures.refined != refined) s.watch();  // a better column brings unshot light of its own
   s.checkLimits();
   if (s.progress_state == SolveState::kRunning && nothing_left) s.stop(SolveState::kConverged, "error");
   if (s.progress_state == SolveState::kRunning) s.checkStagnation();
@@ -270,8 +278,7 @@ void Solve::step() {
 void Solve::setMode(const std::string& key) {
   Impl& s = *impl_;
   s.chooseMode(key);
-  s.watched_fraction = s.measures.unshot_fraction;
-  s.watched_shots = s.measures.shots;
+  s.watch();
 }
 
 void Solve::setError(double error) {
@@ -281,8 +288,7 @@ void Solve::setError(double error) {
   if (s.stopped_by == "no light") return;
   if (s.progress_state == SolveState::kConverged) {
     s.stop(SolveState::kRunning, {});
-    s.watched_fraction = s.measures.unshot_fraction;
-    s.watched_shots = s.measures.shots;
+    s.watch();
   } else if (s.progress_state == SolveState::kLimit && s.measures.unshot_fraction <= error) {
     s.stop(SolveState::kRunning, {});
   }
