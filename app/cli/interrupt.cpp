@@ -1,21 +1,22 @@
 #include "cli/interrupt.h"
 
+#include <atomic>
 #include <csignal>
 
 namespace unshot {
 namespace {
 
 // A signal handler reaches nothing else.
-volatile std::sig_atomic_t raised_signal = 0;
+std::atomic<bool> raised_flag = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 // The second signal, of whatever kind, is sent again to the default that ends the program; it arrives when
 // this returns.
 void raiseFlag(int signal) {
-  if (raised_signal != 0) {
+  if (raised_flag.exchange(true)) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
   }
-  raised_signal = signal;
 }
 
 // SA_RESTART: a write that waits for its reader is not given up at the first signal.
@@ -41,7 +42,7 @@ bool isOurs(int signal) { return signal != SIGHUP || !isIgnored(signal); }
 }  // namespace
 
 InterruptFlag::InterruptFlag() {
-  raised_signal = 0;
+  raised_flag = false;
   for (const int signal : kSignals) {
     if (isOurs(signal)) setHandler(signal, true);
   }
@@ -53,6 +54,8 @@ InterruptFlag::~InterruptFlag() {
   }
 }
 
-bool InterruptFlag::raised() const { return raised_signal != 0; }
+bool InterruptFlag::raised() const { return raised_flag; }
+
+CancelToken InterruptFlag::token() const { return CancelToken(raised_flag); }
 
 }  // namespace unshot

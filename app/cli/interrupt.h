@@ -1,5 +1,7 @@
-// Ctrl-C while a command runs: a flag that is looked at between its phases and steps.
+// Ctrl-C while a command runs: a flag that is looked at between its steps and while it loads a scene.
 #pragma once
+
+#include "base/cancel.h"
 
 namespace unshot {
 
@@ -13,6 +15,8 @@ class InterruptFlag {
   InterruptFlag& operator=(const InterruptFlag&) = delete;
 
   bool raised() const;
+  /// Asks for an end once the flag is raised.
+  CancelToken token() const;
 };
 
 }  // namespace unshot

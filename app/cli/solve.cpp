@@ -70,11 +70,6 @@ std::string boundText(const Measures& m) {
   return m.solverBound() < kNoBound ? percentText(m.solverBound()) : std::string("not known yet");
 }
 
-int endBeforeTheSolve() {
-  std::cerr << "unshot: interrupted before the solve began; there is no result to write" << std::endl;
-  return kExitInterrupted;
-}
-
 /// The exit code of a solve that has ended and is written, with a word on standard error where it has not
 /// converged.
 int concludeSolve(const Solve& solve, const SolveOptions& options, const InterruptFlag& interrupted) {
@@ -135,8 +130,7 @@ int finishSolve(const SolveRequest& request, const Solve& solve, LazyContext& co
   return concludeSolve(solve, request.options, interrupted);
 }
 
-int runSolve(const SolveRequest& request) {
-  const InterruptFlag interrupted;
+int solveScene(const SolveRequest& request, const InterruptFlag& interrupted) {
   checkOutputs(request);
   printDiagnostics(std::cerr, endingNotes(request));
   useShaderDir(request.shader_dir);
@@ -148,19 +142,31 @@ int runSolve(const SolveRequest& request) {
   if (request.needsPicture()) context.get();
   progress.phase("reading " + request.scene.string());
   const double load_began = wallSeconds();
-  Scene scene = readObj(request.scene);
+  Scene scene = readObj(request.scene, interrupted.token());
   const double load_seconds = wallSeconds() - load_began;
   progress.finish();
   printDiagnostics(std::cerr, scene.diagnostics);
-  if (interrupted.raised()) return endBeforeTheSolve();
+  interrupted.token().check();
   const std::size_t said = scene.diagnostics.size();
   progress.phase("meshing");
-  Solve solve(std::move(scene), request.options, [&]() -> gl::Context& { return context.get(); });
+  Solve solve(
+      std::move(scene), request.options, [&]() -> gl::Context& { return context.get(); },
+      interrupted.token());
   progress.finish();
-  if (interrupted.raised()) return endBeforeTheSolve();
+  interrupted.token().check();
   printFrom(said, solve.diagnostics());
   runSteps(solve, interrupted, progress);
   return finishSolve(request, solve, context, probes, load_seconds, interrupted);
+}
+
+int runSolve(const SolveRequest& request) {
+  const InterruptFlag interrupted;
+  try {
+    return solveScene(request, interrupted);
+  } catch (const Cancelled&) {
+    std::cerr << "unshot: interrupted before the solve began; there is no result to write" << std::endl;
+    return kExitInterrupted;
+  }
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <numeric>
 #include <vector>
 
+#include "base/cancel.h"
+
 namespace unshot {
 
 struct Box {
@@ -22,9 +24,10 @@ struct Box {
 
 class BoxTree {
  public:
-  explicit BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
+  explicit BoxTree(std::vector<Box> boxes, const CancelToken& cancel = {})
+      : boxes_(std::move(boxes)), order_(boxes_.size()) {
     std::iota(order_.begin(), order_.end(), 0u);
-    if (!boxes_.empty()) build(0, static_cast<std::uint32_t>(boxes_.size()));
+    if (!boxes_.empty()) build(0, static_cast<std::uint32_t>(boxes_.size()), cancel);
   }
 
   /// Calls `found(index)` for each box that overlaps `query`.
@@ -56,7 +59,8 @@ class BoxTree {
     std::uint32_t right;  // second child; the first follows its parent; 0 in a leaf
   };
 
-  std::uint32_t build(std::uint32_t first, std::uint32_t count) {
+  std::uint32_t build(std::uint32_t first, std::uint32_t count, const CancelToken& cancel) {
+    cancel.check();
     Box box = boxes_[order_[first]];
     for (std::uint32_t k = first; k < first + count; ++k) {
       box.low = glm::min(box.low, boxes_[order_[k]].low);
@@ -73,8 +77,8 @@ class BoxTree {
                        return boxes_[i].low[axis] + boxes_[i].high[axis] <
                               boxes_[j].low[axis] + boxes_[j].high[axis];
                      });
-    build(first, half);
-    const std::uint32_t right = build(first + half, count - half);
+    build(first, half, cancel);
+    const std::uint32_t right = build(first + half, count - half, cancel);
     nodes_[index].right = right;
     return index;
   }

@@ -39,15 +39,17 @@ double squaredDistanceToSegment(const glm::dvec3& p, const glm::dvec3& a, const 
 
 }  // namespace
 
-PointTree::PointTree(std::span<const glm::dvec3> points) : points_(points), order_(points.size()) {
+PointTree::PointTree(std::span<const glm::dvec3> points, const CancelToken& cancel)
+    : points_(points), order_(points.size()) {
   std::iota(order_.begin(), order_.end(), 0u);
   if (!points.empty()) {
     boxes_.reserve(2 * points.size() / kLeafSize + 2);
-    build(0, static_cast<std::uint32_t>(points.size()));
+    build(0, static_cast<std::uint32_t>(points.size()), cancel);
   }
 }
 
-std::uint32_t PointTree::build(std::uint32_t first, std::uint32_t count) {
+std::uint32_t PointTree::build(std::uint32_t first, std::uint32_t count, const CancelToken& cancel) {
+  cancel.check();
   Box box{points_[order_[first]], points_[order_[first]], first, count, 0};
   for (std::uint32_t k = first; k < first + count; ++k) {
     box.low = glm::min(box.low, points_[order_[k]]);
@@ -61,8 +63,8 @@ std::uint32_t PointTree::build(std::uint32_t first, std::uint32_t count) {
   const std::uint32_t half = count / 2;
   std::nth_element(order_.begin() + first, order_.begin() + first + half, order_.begin() + first + count,
                    [&](std::uint32_t i, std::uint32_t j) { return points_[i][axis] < points_[j][axis]; });
-  build(first, half);
-  const std::uint32_t right = build(first + half, count - half);
+  build(first, half, cancel);
+  const std::uint32_t right = build(first + half, count - half, cancel);
   boxes_[index].right = right;
   return index;
 }

@@ -8,12 +8,14 @@
 #include <span>
 #include <vector>
 
+#include "base/cancel.h"
+
 namespace unshot {
 
 class PointTree {
  public:
   /// Keeps a reference to `points`, which must outlive the tree.
-  explicit PointTree(std::span<const glm::dvec3> points);
+  explicit PointTree(std::span<const glm::dvec3> points, const CancelToken& cancel = {});
 
   /// Calls `found(index)` for each point within `distance` of the segment a-b, in no particular order.
   void nearSegment(const glm::dvec3& a, const glm::dvec3& b, double distance,
@@ -28,7 +30,7 @@ class PointTree {
     std::uint32_t first, count;  // points, in order_
     std::uint32_t right;         // second child; the first follows its parent; 0 in a leaf
   };
-  std::uint32_t build(std::uint32_t first, std::uint32_t count);
+  std::uint32_t build(std::uint32_t first, std::uint32_t count, const CancelToken& cancel);
   template <class Meets, class Visit>
   bool search(Meets&& meets, Visit&& visit) const;
 

@@ -17,9 +17,12 @@ namespace {
 class ClosedForm final : public FormFactorMethod {
  public:
   explicit ClosedForm(const FormFactorSetup& setup)
-      : mesh_(*setup.mesh), receivers_(makeReceivers(mesh_, ReceiverKind::kVertices)) {
+      : mesh_(*setup.mesh), receivers_(makeReceivers(mesh_, ReceiverKind::kVertices, setup.cancel)) {
     polygons_.resize(mesh_.patch_count);
-    for (std::uint32_t q = 0; q < mesh_.patch_count; ++q) collectPolygons(q);
+    for (std::uint32_t q = 0; q < mesh_.patch_count; ++q) {
+      setup.cancel.check();
+      collectPolygons(q);
+    }
   }
 
   ReceiverKind receiverKind() const override { return ReceiverKind::kVertices; }

@@ -141,7 +141,7 @@ class Hemicube final : public FormFactorMethod {
       drawing = many && !setup.gl().info().hardware ? HemicubeDrawing::kRays : HemicubeDrawing::kOpenGl;
     }
     if (drawing == HemicubeDrawing::kRays) {
-      view_ = std::make_unique<HemicubeRays>(mesh_);
+      view_ = std::make_unique<HemicubeRays>(mesh_, setup.cancel);
       emitter_resolution_ = emitterResolution(kTracedEmitterFactor);
       note_ = "hemicubes are traced with rays: " + std::to_string(mesh_.triangles.size()) +
               " triangles are too many a picture for a software renderer";

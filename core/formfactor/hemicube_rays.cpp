@@ -13,20 +13,22 @@ constexpr double kLift = 1e-6;
 
 constexpr std::size_t kPixelsWorthAThread = 8192;
 
-FirstHits makeRays(const Mesh& mesh) {
+FirstHits makeRays(const Mesh& mesh, const CancelToken& cancel) {
   std::vector<glm::vec3> positions;
   for (const glm::dvec3& p : mesh.positions) positions.emplace_back(p);
+  cancel.check();
   std::vector<std::uint32_t> corners;
   for (const ChartTriangle& t : mesh.triangles) corners.insert(corners.end(), t.position, t.position + 3);
-  return {positions, corners};
+  return {positions, corners, cancel};
 }
 
 }  // namespace
 
-HemicubeRays::HemicubeRays(const Mesh& mesh)
-    : mesh_(mesh), far_(2 * glm::length(mesh.bounds_max - mesh.bounds_min)), rays_(makeRays(mesh)) {
+HemicubeRays::HemicubeRays(const Mesh& mesh, const CancelToken& cancel)
+    : mesh_(mesh), far_(2 * glm::length(mesh.bounds_max - mesh.bounds_min)), rays_(makeRays(mesh, cancel)) {
   triangles_.resize(mesh.triangles.size());
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
+    cancel.check();
     const Surface& surface = mesh.surfaces[s];
     for (std::uint32_t t = surface.triangles.first; t < surface.triangles.end(); ++t) {
       triangles_[t].surface = s;

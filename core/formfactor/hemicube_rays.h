@@ -10,7 +10,7 @@ namespace unshot {
 
 class HemicubeRays final : public HemicubeView {
  public:
-  explicit HemicubeRays(const Mesh& mesh);
+  explicit HemicubeRays(const Mesh& mesh, const CancelToken& cancel = {});
 
   Result look(const HemicubeFrame& frame, HemicubeLayout layout) override;
 

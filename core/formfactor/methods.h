@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "base/cancel.h"
 #include "base/choice.h"
 #include "formfactor/method.h"
 #include "mesh/mesh.h"
@@ -27,6 +28,7 @@ struct FormFactorSetup {
   std::uint64_t seed = 1;
   std::uint32_t hemicube_resolution = 0;  ///< pixels; 0: the method's own choice
   HemicubeDrawing hemicube_drawing = HemicubeDrawing::kAuto;
+  CancelToken cancel = {};  ///< of setting up
 };
 
 struct FormFactorMethodRow {

@@ -10,8 +10,9 @@ namespace {
 // the element's centre it has its one-sided limit to three digits.
 constexpr double kInset = 1e-3;
 
-void elementReceivers(const Mesh& mesh, Receivers& out) {
+void elementReceivers(const Mesh& mesh, Receivers& out, const CancelToken& cancel) {
   for (std::uint32_t e = 0; e < mesh.element_count; ++e) {
+    cancel.check();
     out.area.push_back(mesh.element_area[e]);
     out.reflectance.push_back(mesh.sides[mesh.element_side[e]].reflectance);
     out.shares.push_back({mesh.element_patch[e], e, mesh.element_area[e]});
@@ -20,12 +21,13 @@ void elementReceivers(const Mesh& mesh, Receivers& out) {
 }
 
 // A third of each display triangle's area belongs to each of its corners (the trapezoidal rule).
-void vertexReceivers(const Mesh& mesh, Receivers& out) {
+void vertexReceivers(const Mesh& mesh, Receivers& out, const CancelToken& cancel) {
   const std::size_t n = mesh.vertices.size();
   out.area.assign(n, 0.0);
   std::vector<glm::dvec3> toward(n, glm::dvec3(0.0));
   std::vector<PatchShare> shares;
   for (std::size_t t = 0; t < mesh.triangle_element.size(); ++t) {
+    cancel.check();
     const std::uint32_t element = mesh.triangle_element[t];
     const std::uint32_t* corner = &mesh.triangle_vertices[3 * t];
     const Surface& surface = mesh.surfaces[mesh.sides[mesh.element_side[element]].surface];
@@ -48,9 +50,9 @@ void vertexReceivers(const Mesh& mesh, Receivers& out) {
                            (weight > 0 ? kInset / weight * toward[v] : glm::dvec3(0.0)));
     out.normal.push_back(glm::normalize(glm::dvec3(vertex.normal)));
   }
-  std::sort(shares.begin(), shares.end(), [](const PatchShare& a, const PatchShare& b) {
+  std::sort(shares.begin(), shares.end(), cancel.checking([](const PatchShare& a, const PatchShare& b) {
     return std::tie(a.receiver, a.patch) < std::tie(b.receiver, b.patch);
-  });
+  }));
   for (const PatchShare& s : shares) {
     if (!out.shares.empty() && out.shares.back().receiver == s.receiver &&
         out.shares.back().patch == s.patch) {
@@ -66,13 +68,13 @@ void vertexReceivers(const Mesh& mesh, Receivers& out) {
 
 }  // namespace
 
-Receivers makeReceivers(const Mesh& mesh, ReceiverKind kind) {
+Receivers makeReceivers(const Mesh& mesh, ReceiverKind kind, const CancelToken& cancel) {
   Receivers out;
   out.kind = kind;
   if (kind == ReceiverKind::kElements) {
-    elementReceivers(mesh, out);
+    elementReceivers(mesh, out, cancel);
   } else {
-    vertexReceivers(mesh, out);
+    vertexReceivers(mesh, out, cancel);
   }
   return out;
 }

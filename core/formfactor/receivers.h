@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "base/cancel.h"
 #include "mesh/mesh.h"
 
 namespace unshot {
@@ -31,6 +32,6 @@ struct Receivers {
   std::size_t size() const { return area.size(); }
 };
 
-Receivers makeReceivers(const Mesh& mesh, ReceiverKind kind);
+Receivers makeReceivers(const Mesh& mesh, ReceiverKind kind, const CancelToken& cancel = {});
 
 }  // namespace unshot

@@ -80,9 +80,11 @@ class AirJoiner {
 
 }  // namespace
 
-void joinAir(Mesh& mesh, std::span<const PieceEdge> edges, std::span<const glm::dvec3> points) {
+void joinAir(Mesh& mesh, std::span<const PieceEdge> edges, std::span<const glm::dvec3> points,
+             const CancelToken& cancel) {
   AirJoiner joiner(mesh, points);
   for (std::size_t first = 0; first < edges.size();) {
+    cancel.check();
     std::size_t end = first + 1;
     while (end < edges.size() && edges[end].low == edges[first].low && edges[end].high == edges[first].high)
       ++end;

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "base/cancel.h"
 #include "mesh/mesh.h"
 
 namespace unshot {
@@ -23,6 +24,7 @@ struct PieceEdge {
 };
 
 /// Fills mesh.patch_air. `edges`: all, sorted by (low, high); `points`: where they end.
-void joinAir(Mesh& mesh, std::span<const PieceEdge> edges, std::span<const glm::dvec3> points);
+void joinAir(Mesh& mesh, std::span<const PieceEdge> edges, std::span<const glm::dvec3> points,
+             const CancelToken& cancel = {});
 
 }  // namespace unshot

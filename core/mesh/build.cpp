@@ -28,7 +28,7 @@ std::uint32_t patchCells(double elements) {
 
 // A side is left out only if nothing of the scene lies in front of it: then no light reaches it and its own
 // meets nothing.
-void makeSides(const Scene& scene, const MeshOptions& options, Mesh& mesh) {
+void makeSides(const Scene& scene, const MeshOptions& options, Mesh& mesh, const CancelToken& cancel) {
   std::vector<glm::dvec3> used;
   used.reserve(mesh.triangles.size() * 3);
   std::vector<char> seen(mesh.positions.size(), 0);
@@ -38,9 +38,10 @@ void makeSides(const Scene& scene, const MeshOptions& options, Mesh& mesh) {
       seen[v] = 1;
     }
   }
-  const PointTree tree(used);
+  const PointTree tree(used, cancel);
   const double margin = 2 * weldDistance(scene);
   const auto seesSomething = [&](const Surface& surface, bool back) {
+    cancel.check();
     const glm::dvec3 normal = back ? -surface.normal : surface.normal;
     return tree.anyInFront(normal, glm::dot(normal, surface.origin) + margin);
   };
@@ -79,7 +80,8 @@ double elementsOf(const Surface& s, double size) {
 
 using Contacts = std::vector<std::vector<ContactSegment>>;
 
-void gridAll(Mesh& mesh, const std::vector<double>& sizes, const Contacts& contacts, double tolerance) {
+void gridAll(Mesh& mesh, const std::vector<double>& sizes, const Contacts& contacts, double tolerance,
+             const CancelToken& cancel) {
   mesh.cells.clear();
   mesh.pieces.clear();
   mesh.piece_corners.clear();
@@ -97,9 +99,10 @@ void gridAll(Mesh& mesh, const std::vector<double>& sizes, const Contacts& conta
   const std::uint32_t patch_cells = patchCells(elements);
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
     Surface& surface = mesh.surfaces[s];
+    cancel.check();
     if (litSides(surface) == 0) continue;
     gridSurface(mesh, s, cellsAlong(surface.extent.x, sizes[s]), cellsAlong(surface.extent.y, sizes[s]),
-                patch_cells, contacts[s], tolerance);
+                patch_cells, contacts[s], tolerance, cancel);
   }
 }
 
@@ -111,8 +114,9 @@ double countElements(const Mesh& mesh) {
 
 // Sizes per surface whose estimated count is nearest to `wanted`: one size for all, but for the few surfaces
 // that tip from one whole number of cells to the next just there.
-std::vector<double> sizesFor(const Mesh& mesh, double wanted) {
+std::vector<double> sizesFor(const Mesh& mesh, double wanted, const CancelToken& cancel) {
   const auto estimate = [&](double size) {
+    cancel.check();
     double sum = 0;
     for (const Surface& s : mesh.surfaces) sum += elementsOf(s, size);
     return sum;
@@ -145,13 +149,14 @@ void sayCount(Mesh& mesh, double wanted) {
        {}});
 }
 
-void gridForCount(Mesh& mesh, double wanted, const Contacts& contacts, double tolerance) {
+void gridForCount(Mesh& mesh, double wanted, const Contacts& contacts, double tolerance,
+                  const CancelToken& cancel) {
   double least = 0;
   for (const Surface& s : mesh.surfaces) least += litSides(s);
   // More sides than elements asked for: large surfaces are still cut as finely as the number says by area.
   if (least > 0.9 * wanted) {
     gridAll(mesh, std::vector<double>(mesh.surfaces.size(), std::sqrt(mesh.lit_area / wanted)), contacts,
-            tolerance);
+            tolerance, cancel);
     sayCount(mesh, wanted);
     return;
   }
@@ -160,8 +165,8 @@ void gridForCount(Mesh& mesh, double wanted, const Contacts& contacts, double to
   // Clipped and joined cells make the count differ from the estimate by some percent; a few corrections close
   // the gap.
   for (int attempt = 0; attempt < 6; ++attempt) {
-    const std::vector<double> sizes = sizesFor(mesh, asked);
-    gridAll(mesh, sizes, contacts, tolerance);
+    const std::vector<double> sizes = sizesFor(mesh, asked, cancel);
+    gridAll(mesh, sizes, contacts, tolerance, cancel);
     const double error = std::abs(countElements(mesh) / wanted - 1);
     if (error < best_error) {
       best_error = error;
@@ -170,12 +175,14 @@ void gridForCount(Mesh& mesh, double wanted, const Contacts& contacts, double to
     if (error < 0.03) break;
     asked *= wanted / countElements(mesh);
   }
-  if (std::abs(countElements(mesh) / wanted - 1) > best_error) gridAll(mesh, best, contacts, tolerance);
+  if (std::abs(countElements(mesh) / wanted - 1) > best_error)
+    gridAll(mesh, best, contacts, tolerance, cancel);
   if (best_error > 0.1) sayCount(mesh, wanted);
 }
 
-void numberElements(Mesh& mesh) {
+void numberElements(Mesh& mesh, const CancelToken& cancel) {
   for (std::uint32_t k = 0; k < mesh.sides.size(); ++k) {
+    cancel.check();
     Side& side = mesh.sides[k];
     const Surface& surface = mesh.surfaces[side.surface];
     side.first_element = mesh.element_count;
@@ -209,7 +216,7 @@ void sayExtremeSize(Mesh& mesh, const Scene& scene) {
 
 }  // namespace
 
-Mesh buildMesh(const Scene& scene, const MeshOptions& options) {
+Mesh buildMesh(const Scene& scene, const MeshOptions& options, const CancelToken& cancel) {
   if (options.elements && options.element_size) {
     throw Error(ErrorKind::kUsage, "--elements and --element-size exclude each other");
   }
@@ -222,27 +229,28 @@ Mesh buildMesh(const Scene& scene, const MeshOptions& options) {
   mesh.bounds_min = scene.bounds_min;
   mesh.bounds_max = scene.bounds_max;
   mesh.materials = scene.materials;
-  const SurfaceTopology topology = makeSurfaces(scene, weld(scene), mesh);
+  const SurfaceTopology topology = makeSurfaces(scene, weld(scene, cancel), mesh, cancel);
   if (mesh.surfaces.empty()) {
     throw Error(ErrorKind::kInput, "no face of the scene has any area", scene.path.string(),
                 "unshot check on the scene");
   }
   sayExtremeSize(mesh, scene);
-  makeSides(scene, options, mesh);
+  makeSides(scene, options, mesh, cancel);
   const double tolerance = weldDistance(scene);
-  const Contacts contacts = findContacts(mesh, topology.edges, 2 * tolerance);
+  cancel.check();
+  const Contacts contacts = findContacts(mesh, topology.edges, 2 * tolerance, cancel);
   if (options.elements) {
-    gridForCount(mesh, static_cast<double>(*options.elements), contacts, tolerance);
+    gridForCount(mesh, static_cast<double>(*options.elements), contacts, tolerance, cancel);
   } else {
     const double size =
         options.element_size.value_or(std::sqrt(mesh.lit_area / static_cast<double>(kDefaultElements)));
     if (!mesh.sides.empty()) {
-      gridAll(mesh, std::vector<double>(mesh.surfaces.size(), size), contacts, tolerance);
+      gridAll(mesh, std::vector<double>(mesh.surfaces.size(), size), contacts, tolerance, cancel);
     }
   }
-  numberElements(mesh);
+  numberElements(mesh, cancel);
   if (mesh.element_count > 0) mesh.element_size = std::sqrt(mesh.lit_area / mesh.element_count);
-  makeDisplay(mesh, topology.smooth_pairs, tolerance);
+  makeDisplay(mesh, topology.smooth_pairs, tolerance, cancel);
   return mesh;
 }
 

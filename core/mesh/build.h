@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/cancel.h"
 #include "mesh/mesh.h"
 #include "scene/scene.h"
 
@@ -20,7 +21,7 @@ inline constexpr std::uint64_t kDefaultElements = 10'000;
 inline constexpr std::uint64_t kMostElements = 20'000'000;
 
 /// Throws Error: kUsage for impossible options or a fineness beyond kMostElements, kInput where no polygon
-/// has area.
-Mesh buildMesh(const Scene& scene, const MeshOptions& options);
+/// has area; Cancelled where `cancel` asks for it.
+Mesh buildMesh(const Scene& scene, const MeshOptions& options, const CancelToken& cancel = {});
 
 }  // namespace unshot

@@ -79,7 +79,7 @@ bool onSegment(const glm::dvec2& p, const ContactSegment& s, double tolerance) {
 }  // namespace
 
 std::vector<std::vector<ContactSegment>> findContacts(const Mesh& mesh, const std::vector<SurfaceEdge>& edges,
-                                                      double distance) {
+                                                      double distance, const CancelToken& cancel) {
   // Each edge once, however many polygons share it; `first` is the first of its uses.
   std::vector<std::uint32_t> first;
   std::vector<Box> boxes;
@@ -97,9 +97,10 @@ std::vector<std::vector<ContactSegment>> findContacts(const Mesh& mesh, const st
     }
     return false;
   };
-  const BoxTree tree(std::move(boxes));
+  const BoxTree tree(std::move(boxes), cancel);
   std::vector<std::vector<ContactSegment>> out(mesh.surfaces.size());
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
+    cancel.check();
     const Surface& surface = mesh.surfaces[s];
     Box box{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
     for (std::uint32_t t = surface.triangles.first; t < surface.triangles.end(); ++t) {

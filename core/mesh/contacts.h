@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "base/cancel.h"
 #include "mesh/mesh.h"
 #include "mesh/surfaces.h"
 
@@ -19,7 +20,7 @@ struct ContactSegment {
 /// side by side; `distance` [m]: how near to the plane an
 /// edge lies in it.
 std::vector<std::vector<ContactSegment>> findContacts(const Mesh& mesh, const std::vector<SurfaceEdge>& edges,
-                                                      double distance);
+                                                      double distance, const CancelToken& cancel = {});
 
 /// Cuts the convex polygons of one cell by the lines of those segments that pass through it, and marks every
 /// edge that lies on a segment as outline. `tolerance` [m].

@@ -20,14 +20,14 @@ namespace {
 
 class DisplayMaker {
  public:
-  DisplayMaker(Mesh& mesh, std::span<const SmoothPair> pairs, double distance)
-      : mesh_(mesh), pairs_(pairs), distance_(distance) {}
+  DisplayMaker(Mesh& mesh, std::span<const SmoothPair> pairs, double distance, const CancelToken& cancel)
+      : mesh_(mesh), pairs_(pairs), distance_(distance), cancel_(cancel) {}
 
   void run() {
     findPoints();
     makeRings();
     const std::vector<PieceEdge> edges = pieceEdges();
-    joinAir(mesh_, edges, points_);
+    joinAir(mesh_, edges, points_, cancel_);
     joinCorners(edges);
     numberVertices();
     makeTriangles();
@@ -46,6 +46,7 @@ class DisplayMaker {
     piece_surface_.resize(mesh_.pieces.size());
     for (std::uint32_t s = 0; s < mesh_.surfaces.size(); ++s) {
       const Surface& surface = mesh_.surfaces[s];
+      cancel_.check();
       if (surface.elements.count == 0) continue;
       for (std::uint32_t c = surface.first_cell; c < surface.first_cell + surface.nu * surface.nv; ++c) {
         const Range pieces = mesh_.cells[c].pieces;
@@ -57,7 +58,7 @@ class DisplayMaker {
         }
       }
     }
-    const std::vector<std::uint32_t> representative = mergePoints(all, distance_);
+    const std::vector<std::uint32_t> representative = mergePoints(all, distance_, cancel_);
     corner_point_.resize(all.size());
     for (std::uint32_t k = 0; k < all.size(); ++k) {
       if (representative[k] == k) {
@@ -86,6 +87,7 @@ class DisplayMaker {
     std::vector<std::uint32_t> candidates;
     std::vector<char> marked(points_.size(), 0);
     for (std::uint32_t p = 0; p < mesh_.pieces.size(); ++p) {
+      cancel_.check();
       const Range corners = mesh_.pieces[p].corners;
       for (std::uint32_t k = corners.first; k < corners.end(); ++k) {
         const bool before = mesh_.piece_corners[k > corners.first ? k - 1 : corners.end() - 1].outline;
@@ -95,10 +97,11 @@ class DisplayMaker {
     }
     std::vector<glm::dvec3> places;
     for (const std::uint32_t p : candidates) places.push_back(points_[p]);
-    const PointTree tree(places);
+    const PointTree tree(places, cancel_);
     std::vector<std::pair<double, std::uint32_t>> between;
     ring_start_.push_back(0);
     for (std::uint32_t p = 0; p < mesh_.pieces.size(); ++p) {
+      cancel_.check();
       const Piece& piece = mesh_.pieces[p];
       for (std::uint32_t k = 0; k < piece.corners.count; ++k) {
         const std::uint32_t a = corner_point_[piece.corners.first + k];
@@ -148,6 +151,7 @@ class DisplayMaker {
     std::vector<PieceEdge> edges;
     edges.reserve(ring_.size());
     for (std::uint32_t p = 0; p < mesh_.pieces.size(); ++p) {
+      cancel_.check();
       for (std::uint32_t k = ring_start_[p]; k < ring_start_[p + 1]; ++k) {
         const std::uint32_t next = k + 1 < ring_start_[p + 1] ? k + 1 : ring_start_[p];
         const bool forward = ring_[k].point < ring_[next].point;
@@ -156,9 +160,9 @@ class DisplayMaker {
                          ring_[k].outline, forward});
       }
     }
-    std::sort(edges.begin(), edges.end(), [](const PieceEdge& a, const PieceEdge& b) {
+    std::sort(edges.begin(), edges.end(), cancel_.checking([](const PieceEdge& a, const PieceEdge& b) {
       return std::tie(a.low, a.high) < std::tie(b.low, b.high);
-    });
+    }));
     return edges;
   }
 
@@ -172,6 +176,7 @@ class DisplayMaker {
     group_.resize(2 * ring_.size());
     std::iota(group_.begin(), group_.end(), 0u);
     for (std::size_t i = 0; i < edges.size(); ++i) {
+      cancel_.check();
       for (std::size_t j = i + 1;
            j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high; ++j) {
         const PieceEdge &a = edges[i], &b = edges[j];
@@ -197,6 +202,7 @@ class DisplayMaker {
     vertex_.assign(group_.size(), kNone);
     std::vector<std::uint32_t> of_group(group_.size(), kNone);
     for (std::uint32_t p = 0; p < mesh_.pieces.size(); ++p) {
+      cancel_.check();
       const Surface& surface = mesh_.surfaces[piece_surface_[p]];
       for (std::uint32_t k = ring_start_[p]; k < ring_start_[p + 1]; ++k) {
         for (std::uint32_t back = 0; back < 2; ++back) {
@@ -217,6 +223,7 @@ class DisplayMaker {
     std::vector<glm::dvec2> outline;
     std::vector<glm::dvec3> normals(mesh_.vertices.size(), glm::dvec3(0.0));  // areas overflow floats
     for (std::uint32_t p = 0; p < mesh_.pieces.size(); ++p) {
+      cancel_.check();
       const Surface& surface = mesh_.surfaces[piece_surface_[p]];
       outline.clear();
       for (std::uint32_t k = ring_start_[p]; k < ring_start_[p + 1]; ++k) {
@@ -261,6 +268,7 @@ class DisplayMaker {
       }
     }
     for (std::uint32_t p = 0; p < mesh_.pieces.size(); ++p) {
+      cancel_.check();
       const Surface& surface = mesh_.surfaces[piece_surface_[p]];
       const glm::dvec3 centre = mesh_.shapes[surface.elements.first + mesh_.pieces[p].element].centre;
       for (std::uint32_t k = ring_start_[p]; k < ring_start_[p + 1]; ++k) {
@@ -277,6 +285,7 @@ class DisplayMaker {
       }
     }
     for (auto& row : rows) {
+      cancel_.check();
       float sum = 0;
       for (const Entry& e : row) sum += e.weight;
       for (Entry& e : row) e.weight /= sum;
@@ -284,6 +293,7 @@ class DisplayMaker {
     interpolateInCells(rows);
     interpolateAlongEdges(real, rows);
     for (const auto& row : rows) {
+      cancel_.check();
       for (const Entry& e : row) {
         mesh_.vertex_from_elements.index.push_back(e.element);
         mesh_.vertex_from_elements.weight.push_back(e.weight);
@@ -316,6 +326,7 @@ class DisplayMaker {
     for (const Surface& surface : mesh_.surfaces) {
       const glm::dvec2 step = surface.extent / glm::dvec2(surface.nu, surface.nv);
       for (std::uint32_t c = 0; surface.elements.count > 0 && c < surface.nu * surface.nv; ++c) {
+        cancel_.check();
         const Cell& cell = mesh_.cells[surface.first_cell + c];
         if (cell.element == kNone || cell.element == kMixed) continue;
         const std::uint32_t first = ring_start_[cell.pieces.first], end = ring_start_[cell.pieces.end()];
@@ -348,6 +359,7 @@ class DisplayMaker {
 
   void interpolateAlongEdges(const std::vector<char>& real, Rows& rows) const {
     for (std::uint32_t k = 0; k < ring_.size(); ++k) {
+      cancel_.check();
       if (!ring_[k].putIn()) continue;
       for (std::uint32_t back = 0; back < 2; ++back) {
         const std::uint32_t vertex = vertex_[2 * k + back];
@@ -365,6 +377,7 @@ class DisplayMaker {
   Mesh& mesh_;
   std::span<const SmoothPair> pairs_;
   double distance_;
+  const CancelToken& cancel_;
   std::vector<std::uint32_t> piece_surface_;  // per piece
   std::vector<glm::dvec3> points_;
   std::vector<std::uint32_t> corner_point_;  // per piece corner
@@ -376,8 +389,9 @@ class DisplayMaker {
 
 }  // namespace
 
-void makeDisplay(Mesh& mesh, std::span<const SmoothPair> smooth_pairs, double weld_distance) {
-  DisplayMaker(mesh, smooth_pairs, weld_distance).run();
+void makeDisplay(Mesh& mesh, std::span<const SmoothPair> smooth_pairs, double weld_distance,
+                 const CancelToken& cancel) {
+  DisplayMaker(mesh, smooth_pairs, weld_distance, cancel).run();
 }
 
 }  // namespace unshot

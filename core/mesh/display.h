@@ -11,6 +11,7 @@ namespace unshot {
 
 /// Fills patch_air, vertices, triangle_vertices, triangle_element and vertex_from_elements. Points closer
 /// than `weld_distance` are one.
-void makeDisplay(Mesh& mesh, std::span<const SmoothPair> smooth_pairs, double weld_distance);
+void makeDisplay(Mesh& mesh, std::span<const SmoothPair> smooth_pairs, double weld_distance,
+                 const CancelToken& cancel = {});
 
 }  // namespace unshot

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "mesh/clip.h"
@@ -26,13 +27,14 @@ class Groups {  // union-find
 class SurfaceGrid {
  public:
   SurfaceGrid(Mesh& mesh, std::uint32_t surface, std::uint32_t patch_cells,
-              const std::vector<ContactSegment>& contacts, double tolerance)
+              const std::vector<ContactSegment>& contacts, double tolerance, const CancelToken& cancel)
       : mesh_(mesh),
         surface_index_(surface),
         surface_(mesh.surfaces[surface]),
         patch_cells_(patch_cells),
         contacts_(contacts),
-        tolerance_(tolerance) {}
+        tolerance_(tolerance),
+        cancel_(cancel) {}
 
   void run(std::uint32_t nu, std::uint32_t nv) {
     surface_.nu = nu;
@@ -45,7 +47,7 @@ class SurfaceGrid {
     std::vector<std::vector<ConvexPolygon>> in_cell(std::size_t{nu} * nv);
     clipTriangles(in_cell);
     storePieces(in_cell);
-    const PartGraph graph = findParts(mesh_, surface_);
+    const PartGraph graph = findParts(mesh_, surface_, cancel_);
     makeElements(graph);
     makeTree(graph);
     makePatches(graph);
@@ -67,6 +69,7 @@ class SurfaceGrid {
       const auto [v_low, v_high] = range(triangle, 1);
       const std::uint32_t j1 = index(v_high, dv_, surface_.nv);
       for (std::uint32_t j = index(v_low, dv_, surface_.nv); j <= j1; ++j) {
+        cancel_.check();
         clipBand(triangle, 1, j, surface_.nv, dv_, scratch, band);
         if (band.empty()) continue;
         const auto [u_low, u_high] = range(band, 0);
@@ -105,6 +108,7 @@ class SurfaceGrid {
 
   void storePieces(std::vector<std::vector<ConvexPolygon>>& in_cell) {
     for (std::uint32_t c = 0; c < in_cell.size(); ++c) {
+      cancel_.check();
       Range& pieces = cell(c).pieces;
       pieces.first = static_cast<std::uint32_t>(mesh_.pieces.size());
       const std::size_t uncut = in_cell[c].size();
@@ -139,6 +143,7 @@ class SurfaceGrid {
     std::sort(small.begin(), small.end(),
               [&](auto a, auto b) { return graph.parts[a].area < graph.parts[b].area; });
     for (const std::uint32_t p : small) {
+      cancel_.check();
       const std::uint32_t own = groups.find(p);
       if (area[own] >= enough) continue;
       std::uint32_t best = kNone;
@@ -162,6 +167,7 @@ class SurfaceGrid {
     std::vector<double> largest_part;
     part_element_.resize(graph.parts.size());
     for (std::uint32_t p = 0; p < graph.parts.size(); ++p) {
+      cancel_.check();
       std::uint32_t& element = element_of_group[groups.find(p)];
       if (element == kNone) {
         element = static_cast<std::uint32_t>(main_part_.size());
@@ -178,6 +184,7 @@ class SurfaceGrid {
     }
     surface_.elements.count = static_cast<std::uint32_t>(main_part_.size());
     for (std::uint32_t c = 0; c < surface_.nu * surface_.nv; ++c) {
+      cancel_.check();
       Cell& target = cell(c);
       for (std::uint32_t k = target.pieces.first; k < target.pieces.end(); ++k) {
         const std::uint32_t element = part_element_[graph.piece_part[k - firstPiece()]];
@@ -205,6 +212,7 @@ class SurfaceGrid {
       largest_centre[piece.element] = centre;
     }
     for (std::uint32_t e = 0; e < n; ++e) {
+      cancel_.check();
       ElementShape& shape = mesh_.shapes[surface_.elements.first + e];
       const glm::dvec2 centroid = moment[e] / shape.area;
       bool inside = false;
@@ -233,6 +241,7 @@ class SurfaceGrid {
 
   // Children halve a node along both sides, or along the longer one where it is at least twice the other.
   void grow(std::uint32_t index, std::uint32_t patch_node) {
+    cancel_.check();
     const Node node = mesh_.nodes[index];
     const std::uint32_t wide = node.u1 - node.u0, high = node.v1 - node.v0;
     if (patch_node == kNone && wide <= patch_cells_ && high <= patch_cells_) patch_node = index;
@@ -278,6 +287,7 @@ class SurfaceGrid {
     surface_.patches.first = static_cast<std::uint32_t>(mesh_.patch_shapes.size());
     std::vector<std::uint32_t> patch_of_group(n, kNone);
     for (std::uint32_t e = 0; e < n; ++e) {
+      cancel_.check();
       std::uint32_t& patch = patch_of_group[groups.find(e)];
       if (patch == kNone) {
         patch = static_cast<std::uint32_t>(mesh_.patch_shapes.size()) - surface_.patches.first;
@@ -302,7 +312,7 @@ class SurfaceGrid {
       seen.emplace_back(cell_patch_node_[graph.parts[p].cell],
                         mesh_.shapes[surface_.elements.first + part_element_[p]].patch);
     }
-    std::sort(seen.begin(), seen.end());
+    std::sort(seen.begin(), seen.end(), cancel_.checking(std::less<>()));
     seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
     for (std::size_t k = 0; k < seen.size(); ++k) {
       const bool alone = (k == 0 || seen[k - 1].first != seen[k].first) &&
@@ -317,6 +327,7 @@ class SurfaceGrid {
   std::uint32_t patch_cells_;
   const std::vector<ContactSegment>& contacts_;
   double tolerance_;
+  const CancelToken& cancel_;
   double du_ = 0, dv_ = 0;
   std::vector<std::uint32_t> part_element_;     // local element of each part
   std::vector<std::uint32_t> main_part_;        // largest part of each element
@@ -327,8 +338,9 @@ class SurfaceGrid {
 }  // namespace
 
 void gridSurface(Mesh& mesh, std::uint32_t surface, std::uint32_t nu, std::uint32_t nv,
-                 std::uint32_t patch_cells, const std::vector<ContactSegment>& contacts, double tolerance) {
-  SurfaceGrid(mesh, surface, patch_cells, contacts, tolerance).run(nu, nv);
+                 std::uint32_t patch_cells, const std::vector<ContactSegment>& contacts, double tolerance,
+                 const CancelToken& cancel) {
+  SurfaceGrid(mesh, surface, patch_cells, contacts, tolerance, cancel).run(nu, nv);
 }
 
 std::uint32_t elementAt(const Mesh& mesh, const Surface& s, const glm::dvec2& uv, double margin) {

@@ -18,7 +18,8 @@ inline constexpr double kSliverShare = 0.4;
 /// piece_corners, nodes, patch_shapes and shapes of the mesh. A patch spans at most patch_cells x patch_cells
 /// cells. `tolerance` [m]: what is nearer than this to a contact lies on it.
 void gridSurface(Mesh& mesh, std::uint32_t surface, std::uint32_t nu, std::uint32_t nv,
-                 std::uint32_t patch_cells, const std::vector<ContactSegment>& contacts, double tolerance);
+                 std::uint32_t patch_cells, const std::vector<ContactSegment>& contacts, double tolerance,
+                 const CancelToken& cancel = {});
 
 /// The cell (its index in Mesh::cells) at chart position uv, clamped to the grid.
 inline std::uint32_t cellAt(const Surface& s, const glm::dvec2& uv) {

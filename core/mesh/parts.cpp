@@ -13,8 +13,11 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y 
 
 class PartFinder {
  public:
-  PartFinder(const Mesh& mesh, const Surface& surface)
-      : mesh_(mesh), surface_(surface), step_(surface.extent / glm::dvec2(surface.nu, surface.nv)) {
+  PartFinder(const Mesh& mesh, const Surface& surface, const CancelToken& cancel)
+      : mesh_(mesh),
+        surface_(surface),
+        cancel_(cancel),
+        step_(surface.extent / glm::dvec2(surface.nu, surface.nv)) {
     near_ = 1e-9 * std::min(step_.x, step_.y);
   }
 
@@ -49,6 +52,7 @@ class PartFinder {
   }
 
   void partsOfCell(std::uint32_t c) {
+    cancel_.check();
     const Range pieces = mesh_.cells[surface_.first_cell + c].pieces;
     std::vector<std::uint32_t> group(pieces.count);
     std::iota(group.begin(), group.end(), 0u);
@@ -86,6 +90,7 @@ class PartFinder {
   void collectBorders() {
     std::vector<LineEdge> edges;
     for (std::uint32_t k = 0; k < out_.piece_part.size(); ++k) {
+      cancel_.check();
       const Piece& piece = mesh_.pieces[first_piece_ + k];
       const std::uint32_t part = out_.piece_part[k], c = out_.parts[part].cell;
       const std::uint32_t cell_index[2] = {c % surface_.nu, c / surface_.nu};
@@ -104,10 +109,11 @@ class PartFinder {
         }
       }
     }
-    std::sort(edges.begin(), edges.end(), [](const LineEdge& a, const LineEdge& b) {
+    std::sort(edges.begin(), edges.end(), cancel_.checking([](const LineEdge& a, const LineEdge& b) {
       return std::tie(a.axis, a.line, a.low) < std::tie(b.axis, b.line, b.low);
-    });
+    }));
     for (std::size_t i = 0; i < edges.size(); ++i) {
+      cancel_.check();
       for (std::size_t j = i + 1; j < edges.size(); ++j) {
         const LineEdge &a = edges[i], &b = edges[j];
         if (a.axis != b.axis || a.line != b.line || b.low >= a.high) break;
@@ -119,6 +125,7 @@ class PartFinder {
 
   const Mesh& mesh_;
   const Surface& surface_;
+  const CancelToken& cancel_;
   glm::dvec2 step_;
   double near_ = 0;
   std::uint32_t first_piece_ = 0;
@@ -127,6 +134,8 @@ class PartFinder {
 
 }  // namespace
 
-PartGraph findParts(const Mesh& mesh, const Surface& surface) { return PartFinder(mesh, surface).run(); }
+PartGraph findParts(const Mesh& mesh, const Surface& surface, const CancelToken& cancel) {
+  return PartFinder(mesh, surface, cancel).run();
+}
 
 }  // namespace unshot

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "base/cancel.h"
 #include "mesh/mesh.h"
 
 namespace unshot {
@@ -27,6 +28,6 @@ struct PartGraph {
 };
 
 /// For a surface whose cells have their pieces.
-PartGraph findParts(const Mesh& mesh, const Surface& surface);
+PartGraph findParts(const Mesh& mesh, const Surface& surface, const CancelToken& cancel = {});
 
 }  // namespace unshot

@@ -37,13 +37,19 @@ Plane planeOf(const WeldedScene& welded, std::span<const std::uint32_t> outline)
 
 class SurfaceMaker {
  public:
-  SurfaceMaker(const Scene& scene, const WeldedScene& welded, Mesh& mesh)
-      : scene_(scene), welded_(welded), mesh_(mesh), surface_of_(scene.polygons.size(), kNone) {}
+  SurfaceMaker(const Scene& scene, const WeldedScene& welded, Mesh& mesh, const CancelToken& cancel)
+      : scene_(scene),
+        welded_(welded),
+        mesh_(mesh),
+        cancel_(cancel),
+        surface_of_(scene.polygons.size(), kNone) {}
 
   SurfaceTopology run() {
     for (std::size_t p = 0; p < scene_.polygons.size(); ++p)
       planes_.push_back(planeOf(welded_, welded_.outline(p)));
+    cancel_.check();
     collectEdges();
+    cancel_.check();
     mesh_.positions = welded_.positions;
     for (std::uint32_t p = 0; p < scene_.polygons.size(); ++p) {
       if (surface_of_[p] == kNone && planes_[p].area > 0) growSurface(p);
@@ -57,17 +63,19 @@ class SurfaceMaker {
   void collectEdges() {
     for (std::uint32_t p = 0; p < scene_.polygons.size(); ++p) {
       if (planes_[p].area <= 0) continue;
+      cancel_.check();
       const auto ring = welded_.outline(p);
       for (std::size_t k = 0; k < ring.size(); ++k) {
         const std::uint32_t a = ring[k], b = ring[(k + 1) % ring.size()];
         edges_.push_back({std::min(a, b), std::max(a, b), p, a < b});
       }
     }
-    std::sort(edges_.begin(), edges_.end(), [](const EdgeUse& x, const EdgeUse& y) {
+    std::sort(edges_.begin(), edges_.end(), cancel_.checking([](const EdgeUse& x, const EdgeUse& y) {
       return std::tie(x.low, x.high, x.polygon) < std::tie(y.low, y.high, y.polygon);
-    });
+    }));
     neighbours_.resize(scene_.polygons.size());
     for (std::size_t first = 0; first < edges_.size();) {
+      cancel_.check();
       std::size_t end = first;
       while (end < edges_.size() && edges_[end].low == edges_[first].low &&
              edges_[end].high == edges_[first].high)
@@ -98,6 +106,7 @@ class SurfaceMaker {
     std::vector<std::uint32_t> members{seed};
     surface_of_[seed] = index;
     for (std::size_t k = 0; k < members.size(); ++k) {
+      cancel_.check();
       for (const std::size_t edge : neighbours_[members[k]]) {
         const EdgeUse& one = edges_[edge];
         const EdgeUse& two = edges_[edge + 1];
@@ -134,6 +143,7 @@ class SurfaceMaker {
                       candidates.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
     double best = INFINITY;
     for (std::size_t k = 0; k < tried; ++k) {
+      cancel_.check();
       const glm::dvec3 u = candidates[k].second, v = glm::cross(surface.normal, u);
       glm::dvec2 low(INFINITY), high(-INFINITY);
       for (const std::uint32_t p : members) {
@@ -171,6 +181,7 @@ class SurfaceMaker {
     surface.triangles.first = static_cast<std::uint32_t>(mesh_.triangles.size());
     std::vector<glm::dvec2> outline;
     for (const std::uint32_t p : members) {
+      cancel_.check();
       const auto ring = welded_.outline(p);
       outline.clear();
       for (const std::uint32_t v : ring) {
@@ -225,6 +236,7 @@ class SurfaceMaker {
     std::set<std::pair<std::uint32_t, std::uint32_t>> known;
     std::vector<SmoothPair> out;
     for (const std::size_t edge : pairs_) {
+      cancel_.check();
       const EdgeUse& one = edges_[edge];
       const EdgeUse& two = edges_[edge + 1];
       const std::uint32_t a = surface_of_[one.polygon], b = surface_of_[two.polygon];
@@ -239,6 +251,7 @@ class SurfaceMaker {
   const Scene& scene_;
   const WeldedScene& welded_;
   Mesh& mesh_;
+  const CancelToken& cancel_;
   std::vector<Plane> planes_;
   std::vector<EdgeUse> edges_;                        // sorted by (low, high)
   std::vector<std::size_t> pairs_;                    // first of two uses of an edge that two polygons share
@@ -248,8 +261,9 @@ class SurfaceMaker {
 
 }  // namespace
 
-SurfaceTopology makeSurfaces(const Scene& scene, const WeldedScene& welded, Mesh& mesh) {
-  return SurfaceMaker(scene, welded, mesh).run();
+SurfaceTopology makeSurfaces(const Scene& scene, const WeldedScene& welded, Mesh& mesh,
+                             const CancelToken& cancel) {
+  return SurfaceMaker(scene, welded, mesh, cancel).run();
 }
 
 }  // namespace unshot

@@ -30,6 +30,7 @@ struct SurfaceTopology {
 /// Fills mesh.surfaces (material, chart, area, triangles), mesh.triangles and mesh.positions.
 /// Polygons are joined only across edges that exactly two polygons share: where a third stands on the edge (a
 /// wall on a floor), light on one side is not light on the other.
-SurfaceTopology makeSurfaces(const Scene& scene, const WeldedScene& welded, Mesh& mesh);
+SurfaceTopology makeSurfaces(const Scene& scene, const WeldedScene& welded, Mesh& mesh,
+                             const CancelToken& cancel = {});
 
 }  // namespace unshot

@@ -78,17 +78,21 @@ void appendEdge(const std::vector<glm::dvec3>& positions, const PointTree& tree,
 
 double weldDistance(const Scene& scene) { return 1e-6 * glm::length(scene.bounds_max - scene.bounds_min); }
 
-std::vector<std::uint32_t> mergePoints(std::span<const glm::dvec3> points, double distance) {
+std::vector<std::uint32_t> mergePoints(std::span<const glm::dvec3> points, double distance,
+                                       const CancelToken& cancel) {
   std::vector<std::uint32_t> representative(points.size());
   PointHash hash(points, distance);
-  for (std::uint32_t k = 0; k < points.size(); ++k) representative[k] = hash.findOrAdd(k);
+  for (std::uint32_t k = 0; k < points.size(); ++k) {
+    cancel.check();
+    representative[k] = hash.findOrAdd(k);
+  }
   return representative;
 }
 
-WeldedScene weld(const Scene& scene) {
+WeldedScene weld(const Scene& scene, const CancelToken& cancel) {
   const double distance = weldDistance(scene);
   WeldedScene out;
-  const std::vector<std::uint32_t> representative = mergePoints(scene.positions, distance);
+  const std::vector<std::uint32_t> representative = mergePoints(scene.positions, distance, cancel);
   out.from_scene.resize(scene.positions.size());
   for (std::uint32_t k = 0; k < representative.size(); ++k) {
     if (representative[k] == k) {
@@ -99,10 +103,11 @@ WeldedScene weld(const Scene& scene) {
     }
   }
 
-  const PointTree tree(out.positions);
+  const PointTree tree(out.positions, cancel);
   out.start.reserve(scene.polygons.size() + 1);
   std::vector<std::uint32_t> ring;
   for (const Polygon& polygon : scene.polygons) {
+    cancel.check();
     ring.clear();
     for (std::uint32_t k = 0; k < polygon.corner_count; ++k) {
       const std::uint32_t v = out.from_scene[scene.corners[polygon.first_corner + k].position];

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/cancel.h"
 #include "scene/scene.h"
 
 namespace unshot {
@@ -30,8 +31,9 @@ struct WeldedScene {
 
 /// Representative of each point: the first one within `distance` (chains are not followed). One value per
 /// point.
-std::vector<std::uint32_t> mergePoints(std::span<const glm::dvec3> points, double distance);
+std::vector<std::uint32_t> mergePoints(std::span<const glm::dvec3> points, double distance,
+                                       const CancelToken& cancel = {});
 
-WeldedScene weld(const Scene& scene);
+WeldedScene weld(const Scene& scene, const CancelToken& cancel = {});
 
 }  // namespace unshot

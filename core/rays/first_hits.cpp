@@ -21,7 +21,8 @@ struct FirstHits::Impl {
   }
 };
 
-FirstHits::FirstHits(std::span<const glm::vec3> positions, std::span<const std::uint32_t> corners)
+FirstHits::FirstHits(std::span<const glm::vec3> positions, std::span<const std::uint32_t> corners,
+                     const CancelToken& cancel)
     : impl_(std::make_unique<Impl>()) {
   impl_->device = rtcNewDevice("threads=1");
   if (!impl_->device)
@@ -44,7 +45,13 @@ FirstHits::FirstHits(std::span<const glm::vec3> positions, std::span<const std::
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(impl_->scene, geometry);
   rtcReleaseGeometry(geometry);
+  CancelToken asked = cancel;
+  rtcSetSceneProgressMonitorFunction(
+      impl_->scene, [](void* token, double) { return !static_cast<const CancelToken*>(token)->requested(); },
+      &asked);
   rtcCommitScene(impl_->scene);
+  cancel.check();
+  rtcSetSceneProgressMonitorFunction(impl_->scene, nullptr, nullptr);
 }
 
 FirstHits::FirstHits(FirstHits&&) noexcept = default;

@@ -6,6 +6,8 @@
 #include <memory>
 #include <span>
 
+#include "base/cancel.h"
+
 namespace unshot {
 
 class FirstHits {
@@ -17,7 +19,8 @@ class FirstHits {
   };
 
   /// `corners`: three indices into `positions` per triangle. Both are copied.
-  FirstHits(std::span<const glm::vec3> positions, std::span<const std::uint32_t> corners);
+  FirstHits(std::span<const glm::vec3> positions, std::span<const std::uint32_t> corners,
+            const CancelToken& cancel = {});
   ~FirstHits();
   FirstHits(FirstHits&&) noexcept;
   FirstHits(const FirstHits&) = delete;

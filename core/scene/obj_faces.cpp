@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>
@@ -28,7 +29,7 @@ constexpr double kPlanarity = 1e-5;
 constexpr double kAreaAgreement = 1e-7;
 
 /// For each position the first one with the same coordinates.
-std::vector<std::uint32_t> weld(const std::vector<glm::dvec3>& positions) {
+std::vector<std::uint32_t> weld(const std::vector<glm::dvec3>& positions, const CancelToken& cancel) {
   std::vector<std::uint32_t> order(positions.size());
   std::iota(order.begin(), order.end(), 0u);
   const auto finite = [&](std::uint32_t i) {
@@ -38,8 +39,9 @@ std::vector<std::uint32_t> weld(const std::vector<glm::dvec3>& positions) {
   std::vector<std::uint32_t> same(order);
   order.erase(std::remove_if(order.begin(), order.end(), [&](std::uint32_t i) { return !finite(i); }),
               order.end());
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
+  std::sort(order.begin(), order.end(), cancel.checking([&](std::uint32_t a, std::uint32_t b) {
+    return key(a) != key(b) ? key(a) < key(b) : a < b;
+  }));
   for (std::size_t k = 1; k < order.size(); ++k) {
     if (key(order[k]) == key(order[k - 1])) same[order[k]] = same[order[k - 1]];
   }
@@ -62,16 +64,19 @@ struct CleanFace {
 
 class Builder {
  public:
-  Builder(const ObjScan& scan, const ObjNumbers& numbers, const ObjMaterials& materials, Scene& scene)
+  Builder(const ObjScan& scan, const ObjNumbers& numbers, const ObjMaterials& materials, Scene& scene,
+          const CancelToken& cancel)
       : scan_(scan),
         numbers_(numbers),
         materials_(materials),
         scene_(scene),
-        welded_(weld(numbers.positions)) {}
+        cancel_(cancel),
+        welded_(weld(numbers.positions, cancel)) {}
 
   void run() {
     std::uint32_t first = 0;
     for (std::uint32_t f = 0; f < scan_.faces.size(); ++f) {
+      cancel_.check();
       checkCorners(scan_.faces[f], first);
       cleanFace(f, first);
       first += scan_.faces[f].corner_count;
@@ -222,7 +227,7 @@ class Builder {
       keys[t] = {{weldedAt(corners[0]), weldedAt(corners[1]), weldedAt(corners[2])}, t};
       std::sort(keys[t].positions.begin(), keys[t].positions.end());
     }
-    std::sort(keys.begin(), keys.end());
+    std::sort(keys.begin(), keys.end(), cancel_.checking(std::less<>()));
     std::size_t first = 0;
     for (std::size_t k = 1; k < keys.size(); ++k) {
       if (keys[k].positions != keys[first].positions) {
@@ -242,6 +247,7 @@ class Builder {
 
   void emitPolygons() {
     for (const CleanFace& clean : faces_) {
+      cancel_.check();
       const auto begin = triangles_.begin() + clean.first_triangle;
       const auto end = begin + clean.triangle_count;
       const auto duplicates = std::count_if(begin, end, [](const FaceTriangle& t) { return t.duplicate; });
@@ -338,6 +344,7 @@ class Builder {
   const ObjNumbers& numbers_;
   const ObjMaterials& materials_;
   Scene& scene_;
+  const CancelToken& cancel_;
   std::vector<std::uint32_t> welded_;
   std::vector<CleanFace> faces_;
   std::vector<std::uint32_t> kept_corners_;
@@ -353,8 +360,8 @@ class Builder {
 }  // namespace
 
 void buildPolygons(const ObjScan& scan, const ObjNumbers& numbers, const ObjMaterials& materials,
-                   Scene& scene) {
-  Builder(scan, numbers, materials, scene).run();
+                   Scene& scene, const CancelToken& cancel) {
+  Builder(scan, numbers, materials, scene, cancel).run();
 }
 
 }  // namespace unshot

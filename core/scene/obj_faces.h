@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "base/cancel.h"
 #include "scene/obj_line_scan.h"
 #include "scene/obj_materials.h"
 #include "scene/scene.h"
@@ -25,6 +26,6 @@ struct ObjNumbers {
 /// already), and adds diagnostics. Throws Error (kInput, with file:line) for an index beyond the last vertex
 /// or normal, for a face at a vertex that is not finite, and where no face has an area.
 void buildPolygons(const ObjScan& scan, const ObjNumbers& numbers, const ObjMaterials& materials,
-                   Scene& scene);
+                   Scene& scene, const CancelToken& cancel = {});
 
 }  // namespace unshot

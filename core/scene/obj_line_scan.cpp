@@ -30,7 +30,8 @@ bool contains(const std::array<std::string_view, N>& words, std::string_view wor
 
 class Scanner {
  public:
-  Scanner(std::string_view text, const std::filesystem::path& path) : text_(text), path_(path) {}
+  Scanner(std::string_view text, const std::filesystem::path& path, const CancelToken& cancel)
+      : text_(text), path_(path), cancel_(cancel) {}
 
   ObjScan run() {
     refuseBinary();
@@ -38,6 +39,7 @@ class Scanner {
     LineReader reader(text_);
     LogicalLine line;
     while (reader.next(line)) {
+      cancel_.check();
       line_ = line.line;
       statement(line.text);
     }
@@ -240,6 +242,7 @@ class Scanner {
 
   std::string_view text_;
   const std::filesystem::path& path_;
+  const CancelToken& cancel_;
   ObjScan scan_;
   std::uint32_t line_ = 0;
   std::size_t statements_ = 0;
@@ -252,8 +255,8 @@ class Scanner {
 
 }  // namespace
 
-ObjScan scanObj(std::string_view text, const std::filesystem::path& path) {
-  return Scanner(text, path).run();
+ObjScan scanObj(std::string_view text, const std::filesystem::path& path, const CancelToken& cancel) {
+  return Scanner(text, path, cancel).run();
 }
 
 }  // namespace unshot

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/cancel.h"
 #include "scene/obj_text.h"
 
 namespace unshot {
@@ -46,6 +47,6 @@ struct ObjScan {
 /// Throws Error (kInput, with file:line) for a binary text, a text without OBJ statements or without faces, a
 /// vertex without three numbers, an index that is 0, no number, beyond 2^31 - 1 or before the first vertex.
 /// Positive indices beyond the last vertex are left to the caller: a face may stand before its vertices.
-ObjScan scanObj(std::string_view text, const std::filesystem::path& path);
+ObjScan scanObj(std::string_view text, const std::filesystem::path& path, const CancelToken& cancel = {});
 
 }  // namespace unshot

@@ -264,7 +264,7 @@ class Converter {
 }  // namespace
 
 ObjMaterials readMaterials(const ObjScan& scan, const fs::path& obj_path, const MtlNumberReader& read_numbers,
-                           Diagnostics& diagnostics) {
+                           Diagnostics& diagnostics, const CancelToken& cancel) {
   Library library(obj_path, read_numbers);
   for (const ObjName& statement : scan.libraries) library.load(statement);
   library.report(diagnostics);
@@ -274,6 +274,7 @@ ObjMaterials readMaterials(const ObjScan& scan, const fs::path& obj_path, const 
   Doubts unknown;
   std::map<const Definition*, std::uint32_t> converted;
   for (const ObjName& name : scan.material_names) {
+    cancel.check();
     const auto fresh = static_cast<std::uint32_t>(result.materials.size());
     if (const Definition* definition = library.find(name.text)) {
       const auto [place, is_new] = converted.try_emplace(definition, fresh);

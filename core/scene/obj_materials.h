@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/cancel.h"
 #include "base/diagnostic.h"
 #include "scene/obj_line_scan.h"
 #include "scene/scene.h"
@@ -34,6 +35,7 @@ struct ObjMaterials {
 /// doubts become diagnostics. Reflectances are Kd times the mean of map_Kd, within 0..1; emission is Ke,
 /// finite and at least 0.
 ObjMaterials readMaterials(const ObjScan& scan, const std::filesystem::path& obj_path,
-                           const MtlNumberReader& read_numbers, Diagnostics& diagnostics);
+                           const MtlNumberReader& read_numbers, Diagnostics& diagnostics,
+                           const CancelToken& cancel = {});
 
 }  // namespace unshot

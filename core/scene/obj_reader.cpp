@@ -29,19 +29,31 @@ std::uint32_t absoluteIndex(int index, std::size_t count) {
   return static_cast<std::uint32_t>(index > 0 ? index - 1 : static_cast<std::int64_t>(count) + index);
 }
 
-ObjNumbers readNumbers(std::string plain, const ObjScan& scan) {
+struct NumberSink {
   ObjNumbers numbers;
+  const CancelToken& cancel;
+
+  static ObjNumbers& of(void* user) {
+    auto& sink = *static_cast<NumberSink*>(user);
+    sink.cancel.check();
+    return sink.numbers;
+  }
+};
+
+ObjNumbers readNumbers(std::string plain, const ObjScan& scan, const CancelToken& cancel) {
+  NumberSink sink{{}, cancel};
+  ObjNumbers& numbers = sink.numbers;
   numbers.positions.reserve(scan.vertex_count);
   numbers.normals.reserve(scan.normal_count);
   tinyobj::callback_t callback;
   callback.vertex_cb = [](void* user, double x, double y, double z, double) {
-    static_cast<ObjNumbers*>(user)->positions.emplace_back(x, y, z);
+    NumberSink::of(user).positions.emplace_back(x, y, z);
   };
   callback.normal_cb = [](void* user, double x, double y, double z) {
-    static_cast<ObjNumbers*>(user)->normals.emplace_back(x, y, z);
+    NumberSink::of(user).normals.emplace_back(x, y, z);
   };
   callback.index_cb = [](void* user, tinyobj::index_t* indices, int count) {
-    auto& target = *static_cast<ObjNumbers*>(user);
+    ObjNumbers& target = NumberSink::of(user);
     for (int i = 0; i < count; ++i) {
       target.corner_positions.push_back(absoluteIndex(indices[i].vertex_index, target.positions.size()));
       target.corner_normals.push_back(absoluteIndex(indices[i].normal_index, target.normals.size()));
@@ -49,14 +61,14 @@ ObjNumbers readNumbers(std::string plain, const ObjScan& scan) {
   };
   std::istringstream stream(std::move(plain));
   std::string warning, error;
-  const bool done = tinyobj::LoadObjWithCallback(stream, callback, &numbers, nullptr, &warning, &error);
+  const bool done = tinyobj::LoadObjWithCallback(stream, callback, &sink, nullptr, &warning, &error);
   std::size_t corners = 0;
   for (const ObjFace& face : scan.faces) corners += face.corner_count;
   if (!done || numbers.positions.size() != scan.vertex_count || numbers.normals.size() != scan.normal_count ||
       numbers.corner_positions.size() != corners) {
     throw Error(ErrorKind::kInternal, "tinyobjloader and the line scan disagree about this file " + error);
   }
-  return numbers;
+  return std::move(sink.numbers);
 }
 
 std::vector<MtlValues> readMtlNumbers(const std::string& plain) {
@@ -113,18 +125,18 @@ void reportNoLight(Scene& scene) {
 
 }  // namespace
 
-Scene readObj(const std::filesystem::path& path) {
+Scene readObj(const std::filesystem::path& path, const CancelToken& cancel) {
   Scene scene;
   scene.path = path;
   scene.name = path.stem().string();
-  const std::string text = readTextFile(path);
-  ObjScan scan = scanObj(text, path);
+  const std::string text = readTextFile(path, cancel);
+  ObjScan scan = scanObj(text, path, cancel);
   scene.smoothing_given = scan.smoothing_given;
   reportStatements(scan, scene);
-  ObjMaterials materials = readMaterials(scan, path, readMtlNumbers, scene.diagnostics);
+  ObjMaterials materials = readMaterials(scan, path, readMtlNumbers, scene.diagnostics, cancel);
   scene.materials = materials.materials;
-  const ObjNumbers numbers = readNumbers(std::move(scan.plain), scan);
-  buildPolygons(scan, numbers, materials, scene);
+  const ObjNumbers numbers = readNumbers(std::move(scan.plain), scan, cancel);
+  buildPolygons(scan, numbers, materials, scene, cancel);
   reportNoLight(scene);
   return scene;
 }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "base/cancel.h"
 #include "scene/scene.h"
 
 namespace unshot {
@@ -14,7 +15,7 @@ namespace unshot {
 /// unknown-material, missing-mtl, unreadable-mtl, reflectance-clamped, emission-clamped, unreadable-colour,
 /// unreadable-texture, free-form, unknown-statement, no-light; of notes: repeated-corner, non-planar-face,
 /// lines-and-points, repeated-material, no-kd, read-past. Scene::materials holds what a usemtl names, in the
-/// order of their first use. Any thread may call it.
-Scene readObj(const std::filesystem::path& path);
+/// order of their first use. Any thread may call it. Throws Cancelled where `cancel` asks for it.
+Scene readObj(const std::filesystem::path& path, const CancelToken& cancel = {});
 
 }  // namespace unshot

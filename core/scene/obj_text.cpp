@@ -10,6 +10,7 @@
 namespace unshot {
 namespace {
 
+constexpr std::size_t kBlock = std::size_t{1} << 22;  // of a file, read at once [bytes]
 constexpr std::string_view kBlanks = " \t\v\f";
 
 bool isBlank(char c) { return kBlanks.find(c) != std::string_view::npos; }
@@ -122,7 +123,7 @@ NumberKind numberKind(std::string_view word) {
   return i == word.size() ? NumberKind::kFinite : NumberKind::kNoNumber;
 }
 
-std::string readTextFile(const std::filesystem::path& path) {
+std::string readTextFile(const std::filesystem::path& path, const CancelToken& cancel) {
   namespace fs = std::filesystem;
   std::error_code failure;
   const fs::file_status status = fs::status(path, failure);
@@ -145,10 +146,16 @@ std::string readTextFile(const std::filesystem::path& path) {
     throw Error(ErrorKind::kInput, "files above 4 GiB are not read", path.string(), "split the scene");
   }
   std::string text(static_cast<std::size_t>(size), '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(size));
+  std::size_t got = 0;
+  for (std::streamsize block = 1; block > 0 && got < text.size();) {
+    cancel.check();
+    stream.read(text.data() + got, static_cast<std::streamsize>(std::min(text.size() - got, kBlock)));
+    block = stream.gcount();
+    got += static_cast<std::size_t>(block);
+  }
   if (stream.bad())
     throw Error(ErrorKind::kInput, "the file cannot be read", path.string(), "check the disk");
-  text.resize(static_cast<std::size_t>(stream.gcount()));
+  text.resize(got);
   return text;
 }
 

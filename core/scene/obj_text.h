@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/cancel.h"
 #include "base/diagnostic.h"
 
 namespace unshot {
@@ -46,7 +47,7 @@ enum class NumberKind { kFinite, kInfinite, kNegativeInfinite, kNan, kNoNumber }
 NumberKind numberKind(std::string_view word);
 
 /// The whole file. Throws Error (kInput: missing, not a regular file, unreadable, larger than 4 GiB).
-std::string readTextFile(const std::filesystem::path& path);
+std::string readTextFile(const std::filesystem::path& path, const CancelToken& cancel = {});
 
 /// "path:line".
 std::string placeOf(const std::filesystem::path& path, std::uint32_t line);

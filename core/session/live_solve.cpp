@@ -51,6 +51,13 @@ std::shared_ptr<const SolveFacts> factsOf(const Solve& solve, double load_second
 
 }  // namespace
 
+bool isSuperseded(const Command& command, const Command& later) {
+  const bool opens = std::holds_alternative<command::Open>(later);
+  if (std::holds_alternative<command::Open>(command)) return opens;
+  return std::holds_alternative<command::Restart>(command) &&
+         (opens || std::holds_alternative<command::Restart>(later));
+}
+
 LiveSolve::LiveSolve(LiveSolveSetup setup) : setup_(std::move(setup)) {}
 
 LiveSolve::~LiveSolve() {
@@ -61,6 +68,7 @@ LiveSolve::~LiveSolve() {
 void LiveSolve::carryOut(const Command& command) {
   try {
     std::visit([this](const auto& c) { perform(c); }, command);
+  } catch (const Cancelled&) {
   } catch (...) {
     noteException();
   }
@@ -86,7 +94,7 @@ void LiveSolve::step() {
 void LiveSolve::perform(const command::Open& c) {
   announce("reading " + c.scene.filename().string());
   const double began = wallSeconds();
-  Scene scene = readObj(c.scene);
+  Scene scene = readObj(c.scene, setup_.given_up);
   begin(std::move(scene), c.options, wallSeconds() - began);
 }
 
@@ -156,11 +164,11 @@ Solve& LiveSolve::usable() {
 
 // The new solve takes the old one's place only when it stands and has its first snapshot.
 void LiveSolve::begin(Scene scene, const SolveOptions& options, double load_seconds) {
-  if (*setup_.closing) return;
+  setup_.given_up.check();
   announce("meshing " + scene.path.filename().string());
-  auto fresh =
-      std::make_unique<Solve>(std::move(scene), options, [this]() -> gl::Context& { return context(); });
-  if (*setup_.closing) return;
+  auto fresh = std::make_unique<Solve>(
+      std::move(scene), options, [this]() -> gl::Context& { return context(); }, setup_.given_up);
+  setup_.given_up.check();
   const double began = wallSeconds();
   auto first = std::make_shared<const Snapshot>(fresh->snapshot());
   const double ended = wallSeconds();

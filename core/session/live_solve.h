@@ -41,11 +41,14 @@ struct SetError {
 using Command = std::variant<command::Open, command::Restart, command::Pause, command::Resume, command::Step,
                              command::SetMode, command::SetError>;
 
+/// Whether loading for `command` is in vain, since `later` loads another scene or the same one again.
+bool isSuperseded(const Command& command, const Command& later);
+
 /// What is shared with the threads that own it.
 struct LiveSolveSetup {
   gl::Context* gl = nullptr;                                         ///< as SessionSetup::gl
   std::function<void(std::shared_ptr<const SessionState>)> publish;  ///< takes each new state
-  const std::atomic<bool>* closing = nullptr;                        ///< loading ends early where it is set
+  CancelToken given_up;                                              ///< loading ends where it asks for that
   const std::atomic<double>* interval = nullptr;                     ///< of publication [s]
 };
 
@@ -57,7 +60,8 @@ class LiveSolve {
   LiveSolve(const LiveSolve&) = delete;
   LiveSolve& operator=(const LiveSolve&) = delete;
 
-  /// Carries it out and publishes. What fails becomes SessionState::problem.
+  /// Carries it out and publishes. What fails becomes SessionState::problem; what is given up leaves all as
+  /// it was.
   void carryOut(const Command& command);
   /// Whether step() has something to do.
   bool running() const { return phase() == SessionPhase::kRunning; }

@@ -23,7 +23,7 @@ struct Preparation {
 };
 
 /// Meshes the scene and plans its solve. Any thread. Throws Error (kUsage for an unknown form-factor method
-/// or an impossible mesh).
-Preparation prepare(const Scene& scene, const SolveOptions& options);
+/// or an impossible mesh), Cancelled.
+Preparation prepare(const Scene& scene, const SolveOptions& options, const CancelToken& cancel = {});
 
 }  // namespace unshot

@@ -1,5 +1,6 @@
 #include "session/session.h"
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <deque>
@@ -13,12 +14,13 @@ namespace unshot {
 
 struct Session::Impl {
   const SessionSetup setup;
-  std::atomic<bool> closing{false};
+  std::atomic<bool> closing{false}, given_up{false};  // given_up: what is being loaded
   std::atomic<double> interval{PublishPace::kLeastInterval};
 
   mutable std::mutex mutex;  // of what follows
   std::condition_variable arrived;
   std::deque<Command> queue;
+  std::optional<Command> current;  // what is being carried out
   std::uint64_t sent = 0;
   std::shared_ptr<const SessionState> latest = std::make_shared<const SessionState>();
 
@@ -30,7 +32,7 @@ struct Session::Impl {
   ~Impl() {
     {
       const std::lock_guard lock(mutex);
-      closing = true;
+      closing = given_up = true;
     }
     arrived.notify_all();
     thread.join();
@@ -39,6 +41,7 @@ struct Session::Impl {
   void send(Command command) {
     {
       const std::lock_guard lock(mutex);
+      if (current && isSuperseded(*current, command)) given_up = true;
       queue.push_back(std::move(command));
       ++sent;
     }
@@ -53,7 +56,7 @@ struct Session::Impl {
 void Session::Impl::run() {
   LiveSolve live({.gl = setup.gl,
                   .publish = [this](std::shared_ptr<const SessionState> state) { publish(std::move(state)); },
-                  .closing = &closing,
+                  .given_up = CancelToken(given_up),
                   .interval = &interval});
   while (!closing) {
     // Only where there is no memory for as much as a state: the next one says what became of the session.
@@ -72,9 +75,11 @@ std::optional<Command> Session::Impl::next(bool wait) {
   std::unique_lock lock(mutex);
   if (wait) arrived.wait(lock, [this] { return closing || !queue.empty(); });
   if (closing || queue.empty()) return std::nullopt;
-  std::optional<Command> command(std::move(queue.front()));
+  current = std::move(queue.front());
   queue.pop_front();
-  return command;
+  given_up = std::any_of(queue.begin(), queue.end(),
+                         [this](const Command& later) { return isSuperseded(*current, later); });
+  return current;
 }
 
 void Session::Impl::publish(std::shared_ptr<const SessionState> state) {

@@ -67,7 +67,7 @@ struct SessionSetup {
 };
 
 /// All member functions may be called from any thread and return at once; only the destructor waits, for one
-/// step (or the end of one phase of loading) at most.
+/// step at most: loading is given up.
 class Session {
  public:
   explicit Session(SessionSetup setup);
@@ -80,10 +80,11 @@ class Session {
   // step of a converged solve) does nothing.
 
   /// Reads a scene and solves it. The scene before goes on being shown, and is gone only when this one is
-  /// ready. The new solve runs from the first moment; a pause sent after this command finds it before its
-  /// first shot.
+  /// ready. One that is still being loaded is given up for this one, and never shown. The new solve runs from
+  /// the first moment; a pause sent after this command finds it before its first shot.
   void open(std::filesystem::path scene, SolveOptions options);
   /// The present scene as it was read, from the start, with these options; open() reads the file again.
+  /// Another restart that is not ready is given up.
   void restart(SolveOptions options);
   void pause();
   void resume();

@@ -27,6 +27,7 @@ void checkError(double error) {
 
 std::vector<glm::dvec3> perPatch(const Mesh& mesh, glm::dvec3 Side::*member) {
   std::vector<glm::dvec3> out;
+  out.reserve(mesh.patch_count);
   for (const std::uint32_t side : mesh.patch_side) out.push_back(mesh.sides[side].*member);
   return out;
 }
@@ -64,8 +65,8 @@ struct Solve::Impl {
   Impl(Scene scene_in, SolveOptions options_in)
       : options(std::move(options_in)), scene(std::move(scene_in)) {}
 
-  void prepare(const std::function<gl::Context&()>& gl);
-  void makeTransport(const std::function<gl::Context&()>& gl);
+  void prepare(const std::function<gl::Context&()>& gl, const CancelToken& cancel);
+  void makeTransport(const std::function<gl::Context&()>& gl, const CancelToken& cancel);
   void chooseMode(const std::string& key);
   void stop(SolveState how, std::string why);
   void fail(ErrorKind kind, std::string why, std::string advice);
@@ -74,16 +75,17 @@ struct Solve::Impl {
   void measure();
   bool reached();
   void checkLimits();
+  void watch();
   void checkStagnation();
   void record();
   void refineBrightest();
   std::optional<std::size_t> iterate();
 };
 
-void Solve::Impl::prepare(const std::function<gl::Context&()>& gl) {
+void Solve::Impl::prepare(const std::function<gl::Context&()>& gl, const CancelToken& cancel) {
   checkError(options.error);
   cpu_start = cpuSeconds();
-  Preparation prepared = unshot::prepare(scene, options);
+  Preparation prepared = unshot::prepare(scene, options, cancel);
   mesh = std::move(prepared.mesh);
   form_factors_key = std::move(prepared.form_factors);
   plan = std::move(prepared.plan);
@@ -92,10 +94,13 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl) {
   seconds.plan = prepared.plan_seconds;
 
   const double cpu_before_setup = cpuSeconds();
-  makeTransport(gl);
+  cancel.check();
+  makeTransport(gl, cancel);
+  cancel.check();
   cpu_setup = cpuSeconds() - cpu_before_setup;
   state = std::make_unique<RadiosityState>(*transport, perPatch(*mesh, &Side::emission),
                                            perPatch(*mesh, &Side::reflectance));
+  cancel.check();
   ambient = std::make_unique<AmbientTerm>(mesh->patch_count, mesh->patch_air);
   budget = std::make_unique<ErrorBudget>(*transport, *state, options.kept_bytes / 4);
   transport->watchColumns([this](std::uint32_t q, const Column& column) {
@@ -112,10 +117,11 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl) {
   history.push_back({measures});
 }
 
-void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl) {
+void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl, const CancelToken& cancel) {
   const FormFactorMethodRow& row = findChoice(formFactorMethods(), form_factors_key, "form-factor method");
   FormFactorSetup setup;
   setup.mesh = mesh.get();
+  setup.cancel = cancel;
   setup.seed = options.seed;
   setup.hemicube_resolution = options.hemicube_resolution;
   setup.gl = [&gl]() -> gl::Context& {
@@ -126,7 +132,8 @@ void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl) {
   std::unique_ptr<FormFactorMethod> method = row.make(setup);
   if (!method->note().empty())
     diagnostics.push_back({Severity::kNote, "form-factor-note", method->note(), {}, {}});
-  Receivers receivers = makeReceivers(*mesh, method->receiverKind());
+  cancel.check();
+  Receivers receivers = makeReceivers(*mesh, method->receiverKind(), cancel);
   transport = std::make_unique<Transport>(std::move(method), std::move(receivers), mesh->patch_area,
                                           options.kept_bytes);
   transport->allowDrafts(options.draft_first);
@@ -213,6 +220,12 @@ bool Solve::Impl::nothingDiesOut() const {
   return reflected >= (1 - kStagnationShare) * left;
 }
 
+// From here on the unshot power has to fall.
+void Solve::Impl::watch() {
+  watched_fraction = measures.unshot_fraction;
+  watched_shots = measures.shots;
+}
+
 void Solve::Impl::checkStagnation() {
   if (measures.shots - watched_shots < kStagnationPasses * mesh->patch_count) return;
   if (measures.unshot_fraction > (1 - kStagnationShare) * watched_fraction) {
@@ -227,8 +240,7 @@ void Solve::Impl::checkStagnation() {
            "another --mode or --form-factors");
     }
   }
-  watched_fraction = measures.unshot_fraction;
-  watched_shots = measures.shots;
+  watch();
 }
 
 // A curve needs no more points than a plot has pixels: each is a hundredth further than the last.
@@ -267,9 +279,9 @@ std::optional<std::size_t> Solve::Impl::iterate() {
   }
 }
 
-Solve::Solve(Scene scene, SolveOptions options, std::function<gl::Context&()> gl)
+Solve::Solve(Scene scene, SolveOptions options, std::function<gl::Context&()> gl, const CancelToken& cancel)
     : impl_(std::make_unique<Impl>(std::move(scene), std::move(options))) {
-  impl_->prepare(gl);
+  impl_->prepare(gl, cancel);
 }
 
 Solve::~Solve() = default;
@@ -279,6 +291,7 @@ void Solve::step() {
   if (s.progress_state != SolveState::kRunning) return;
   s.wakeClocks();
   bool nothing_left = false;
+  const std::uint64_t refined = s.measures.refined;
   if (s.measures.drafts > 0 && s.measures.solverBound() <= s.options.error) {
     s.refineBrightest();
   } else if (const auto used = s.iterate()) {
@@ -288,6 +301,7 @@ void Solve::step() {
     if (!nothing_left) s.refineBrightest();
   }
   s.measure();
+  if (s.measures.refined != refined) s.watch();  // a better column brings unshot light of its own
   if (s.progress_state == SolveState::kRunning) s.checkLimits();
   if (s.progress_state == SolveState::kLimit || nothing_left) s.measures.bounds = s.budget->sharpen();
   if (s.progress_state == SolveState::kRunning && nothing_left)
@@ -304,8 +318,7 @@ void Solve::setMode(const std::string& key) {
     s.stop(SolveState::kRunning, {});
   }
   s.mode_failed = false;
-  s.watched_fraction = s.measures.unshot_fraction;
-  s.watched_shots = s.measures.shots;
+  s.watch();
 }
 
 void Solve::setError(double error) {
@@ -315,8 +328,7 @@ void Solve::setError(double error) {
   if (s.stopped_by == "no light") return;
   if (s.progress_state == SolveState::kConverged) {
     s.stop(SolveState::kRunning, {});
-    s.watched_fraction = s.measures.unshot_fraction;
-    s.watched_shots = s.measures.shots;
+    s.watch();
   } else if (s.progress_state == SolveState::kLimit && s.measures.solverBound() <= error) {
     s.stop(SolveState::kRunning, {});
   }

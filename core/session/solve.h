@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/cancel.h"
 #include "base/error.h"
 #include "scene/scene.h"
 #include "session/snapshot.h"
@@ -70,8 +71,8 @@ class Solve {
  public:
   /// `gl` is called at most once, only when the form-factor method needs GL; the context stays the caller's
   /// and outlives the Solve. Meshes the scene and sets the method up. Throws Error (kUsage for unknown keys
-  /// or impossible options).
-  Solve(Scene scene, SolveOptions options, std::function<gl::Context&()> gl);
+  /// or impossible options), Cancelled where `cancel`, of which it keeps nothing, asks for it.
+  Solve(Scene scene, SolveOptions options, std::function<gl::Context&()> gl, const CancelToken& cancel = {});
   ~Solve();
   Solve(const Solve&) = delete;
   Solve& operator=(const Solve&) = delete;

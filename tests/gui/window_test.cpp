@@ -3,6 +3,7 @@
 
 #include "export/image_files.h"
 #include "gui/support/screen.h"
+#include "render/display_modes.h"
 
 namespace unshot {
 namespace {
@@ -60,13 +61,16 @@ TEST_F(Window, KeysOfTheDisplay) {
   WindowRun run(kLongSolve);
   const std::string unshot = pausedScene(run);
   std::set<std::string> pictures{unshot};
-  for (int i = 0; i < 6; ++i) {
+  const std::size_t modes = displayModes().size();
+  for (std::size_t i = 0; i + 1 < modes; ++i) {
     run.key("m");
     EXPECT_TRUE(pictures.insert(run.scene()).second) << "the same as before after " << i + 1 << " times M";
   }
   run.key("m");
   EXPECT_EQ(run.scene(), unshot) << "does not come round";
-  for (int i = 0; i < 4; ++i) run.key("m");
+  std::size_t shown = 0;
+  while (displayModes()[shown].info.key != "unshot") ++shown;
+  for (; displayModes()[shown % modes].info.key != "radiosity"; ++shown) run.key("m");
   const std::string radiosity = run.scene();
   run.key("b");
   const std::string direct = run.scene();

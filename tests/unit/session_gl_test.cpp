@@ -53,6 +53,17 @@ TEST(SessionGl, SolvesWithHemicubesAndLeavesTheContextFree) {
   EXPECT_EQ(context->functions().GetError(), GLenum{GL_NO_ERROR});
 }
 
+// Each draft that is replaced brings unshot power of its own.
+TEST(SessionGl, RefiningDraftsIsNoStagnation) {
+  const auto context = gl::createContext("osmesa");
+  SolveOptions options = hemicubes(1000, 1e-6);
+  options.draft_first = true;
+  Solve solve(readObj(asset("cornell_box.obj")), options, [&]() -> gl::Context& { return *context; });
+  while (solve.state() == SolveState::kRunning) solve.step();
+  EXPECT_EQ(solve.state(), SolveState::kConverged) << solve.stoppedBy();
+  EXPECT_EQ(solve.measures().drafts, 0u);
+}
+
 TEST(SessionGl, ClosesWhileItLoadsAndWhileItShoots) {
   const auto context = gl::createContext("osmesa");
   for (std::uint64_t version = 0; version <= 5; ++version) {

@@ -134,6 +134,8 @@ class WindowRun {
   const TempFolder& folder() const { return folder_; }
   const std::string& window() const { return window_; }
   bool running() { return run_->running(); }
+  /// What it has said so far.
+  std::string errors() const { return run_->errorsSoFar(); }
   std::string title() const { return xdotool("getwindowname " + window_); }
   bool hasTitle(const std::string& title_wanted) {
     return eventually([&] { return title() == title_wanted || !running(); }) && running();

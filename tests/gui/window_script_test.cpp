@@ -1,0 +1,141 @@
+// Scripts in the real window, and the panel's choices clicked as a person does: every row of the tables.
+#include <gmock/gmock.h>
+
+#include "formfactor/methods.h"
+#include "gui/support/program_pictures.h"
+#include "gui/support/screen.h"
+#include "render/display_modes.h"
+#include "solver/modes.h"
+
+namespace unshot {
+namespace {
+
+using namespace testing_support;
+
+const std::string kTwoRooms = std::string(UNSHOT_SOURCE_DIR) + "/assets/two_rooms.obj";
+
+/// Runs the lines in a window of 640 x 480 and expects that nothing was wrong.
+void runInWindow(const TempFolder& folder, const std::string& lines) {
+  const Screen screen;
+  folder.write("script.txt", lines);
+  const ProgramResult run = runProgram(folder, {"view", "--script", "script.txt", "--size", "640x480",
+                                                "--elements", "300", "--error", "0.02"});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_EQ(run.err, "");
+}
+
+TEST(WindowScript, PausesStepsResizesOpensAndCloses) {
+  const TempFolder folder;
+  runInWindow(folder,
+              "ambient off\npause on\nstep 3\nwait shots 3\nframe\nscreenshot-scene three.png\n"
+              "step 2\nwait shots 5\nscreenshot-scene five.png\npause off\nwait converged\n"
+              "screenshot converged.png\nsize 900x600\nscreenshot large.png\nopen " +
+                  kTwoRooms +
+                  "\nwait converged\nscreenshot rooms.png\n"
+                  "elements 100000\nwait shots 1\nquit\n");
+  const ImageF converged = picture(folder, "converged.png"), large = picture(folder, "large.png"),
+               rooms = picture(folder, "rooms.png");
+  EXPECT_EQ(std::pair(converged.width, converged.height), std::pair(640, 480));
+  EXPECT_EQ(std::pair(large.width, large.height), std::pair(900, 600));
+  EXPECT_GT(lightDifference(rooms, large), 0.1);
+  EXPECT_GT(lightDifference(picture(folder, "three.png"), picture(folder, "five.png")), 0.01);
+}
+
+TEST(WindowScript, EveryModeConvergesToTheSameWithEveryMethod) {
+  const TempFolder folder;
+  std::string script = "error 0.001\nambient off\nwait converged\n";
+  std::vector<std::string> names;
+  for (const FormFactorMethodRow& method : formFactorMethods()) {
+    script += "form-factors " + std::string(method.info.key) + "\n";
+    for (const IterationModeRow& mode : iterationModes()) {
+      names.push_back(std::string(method.info.key) + "_" + std::string(mode.info.key) + ".png");
+      script += "restart\nmode " + std::string(mode.info.key) + "\nwait converged\nscreenshot-scene " +
+                names.back() + "\n";
+    }
+  }
+  // Half way, what was shot stays.
+  script += "form-factors hemicube\nrestart\npause on\n";
+  for (const IterationModeRow& mode : iterationModes())
+    script += "mode " + std::string(mode.info.key) + "\nstep 4\nwait shots 1000000\n";
+  runInWindow(folder, script + "pause off\nwait converged\nscreenshot-scene mixed.png\nquit\n");
+  names.push_back("mixed.png");
+  const std::size_t modes = iterationModes().size();
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const std::string& same = names[k + 1 == names.size() ? 0 : k / modes * modes];
+    EXPECT_LT(lightDifference(picture(folder, names[k]), picture(folder, same)), 0.02) << names[k];
+  }
+}
+
+TEST(WindowScript, EveryDisplayModeShowsAPictureOfItsOwn) {
+  const TempFolder folder;
+  std::string script = "wait converged\n";
+  for (const DisplayMode& mode : displayModes()) {
+    const std::string key(mode.info.key);
+    script += "display " + key + "\nscreenshot-scene " + key + ".png\n";
+  }
+  runInWindow(folder, script + "quit\n");
+  std::set<std::string> pictures;
+  for (const DisplayMode& mode : displayModes()) {
+    const std::string name = std::string(mode.info.key) + ".png";
+    EXPECT_TRUE(showsSomething(picture(folder, name))) << name;
+    EXPECT_TRUE(pictures.insert(folder.read(name)).second) << name;
+  }
+}
+
+/// A choice of the panel at scale 1: the list opens below it, its rows 20 px apart (app/viewer/theme.cpp).
+class PanelChoices : public testing::Test {
+ protected:
+  static constexpr int kWidth = 900, kPanel = 304, kLeft = kWidth - kPanel;
+  static constexpr int kScene = 21, kMode = 125, kMethod = 151, kShow = 447;
+
+  void click(int x, int y) {
+    xdotool("mousemove --window " + run_.window() + " " + std::to_string(x) + " " + std::to_string(y));
+    run_.screenshot();  // a frame of the GUI with the mouse there
+    xdotool("click 1");
+    run_.screenshot();
+  }
+  void choose(int y, std::size_t row) {
+    click(kLeft + 180, y);
+    click(kLeft + 180, y + 29 + 20 * static_cast<int>(row));
+    xdotool("mousemove --window " + run_.window() + " 100 600");
+  }
+  /// What the panel shows in a line.
+  std::string textAt(int y) {
+    const ImageF image = readImage(run_.folder().path() / run_.screenshot("F12"));
+    std::string bytes;
+    for (int row = y - 9; row < y + 9; ++row) {
+      for (int x = kLeft + 115; x < kLeft + 250; ++x) {
+        const float green = image.rgb[static_cast<std::size_t>(3 * (row * image.width + x) + 1)];
+        bytes += green > 0.3f ? '#' : ' ';
+      }
+    }
+    return bytes;
+  }
+  /// Rows of the table, which follow "Automatic", each chosen and then shown.
+  void chooseEach(int y, std::size_t first, std::size_t rows) {
+    std::set<std::string> shown;
+    for (std::size_t k = 0; k < rows; ++k) {
+      choose(y, first + k);
+      EXPECT_TRUE(eventually([&] { return shown.insert(textAt(y)).second; }, 20)) << "row " << k;
+    }
+  }
+
+  const Screen screen_;
+  WindowRun run_{{"--size", "900x700", "--elements", "300"}};
+};
+
+TEST_F(PanelChoices, EveryRowOfEveryTable) {
+  ASSERT_TRUE(run_.hasTitle("cornell_box \u2013 Unshot"));
+  chooseEach(kMode, 1, iterationModes().size());
+  chooseEach(kMethod, 1, formFactorMethods().size());
+  chooseEach(kShow, 0, displayModes().size());
+  choose(kScene, 4);
+  EXPECT_TRUE(run_.hasTitle("two_rooms \u2013 Unshot")) << run_.title();
+  run_.key("ctrl+q");
+  const ProgramResult result = run_.end();
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.err, "");
+}
+
+}  // namespace
+}  // namespace unshot
