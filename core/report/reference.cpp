@@ -18,6 +18,7 @@ namespace {
 
 // Before that many batches the standard error is not trusted to end the work.
 constexpr std::uint64_t kLeastBatches = 16;
+constexpr double kMedianOfNoise = 2;
 // So that limits and progress are looked at soon by every thread.
 constexpr std::uint64_t kMostBatchesInARound = 32;
 
@@ -54,7 +55,8 @@ class Tracing {
   Ending run() {
     for (;;) {
       const std::uint64_t done = leastBatches();
-      noise_ = noiseOf(points_);
+      // A few bright points are soon good enough for the whole; the others are to be of use too.
+      noise_ = std::max(noiseOf(points_), medianNoiseOf(points_) / kMedianOfNoise);
       if (done >= kLeastBatches && noise_ <= options_.relative_error) return Ending::kReached;
       if (done * kPathsPerBatch >= options_.max_samples) return Ending::kMaxSamples;
       traceUntil(std::min(done < 2 ? 2 : 2 * done, done + kMostBatchesInARound));
@@ -163,13 +165,16 @@ void sayHowItEnded(Tracing::Ending ending, const ReferenceOptions& options, Refe
   const char* limit = ending == Ending::kMaxSamples   ? "its limit of paths"
                       : ending == Ending::kMaxSeconds ? "its limit of time"
                                                       : "an interruption";
-  const double noise = noiseOf(reference.points);
+  const double noise = noiseOf(reference.points), median = medianNoiseOf(reference.points);
   reference.diagnostics.push_back(
       {Severity::kWarning,
        "reference-noise",
        "the reference was ended by " + std::string(limit) + " with " +
-           (std::isfinite(noise) ? "a standard error of " + percentText(noise) : "no standard error yet") +
-           "; asked for: " + percentText(options.relative_error),
+           (std::isfinite(noise) ? "a standard error of " + percentText(noise) + " (of the median point " +
+                                       percentText(median) + ")"
+                                 : "no standard error yet") +
+           "; asked for: " + percentText(options.relative_error) + " (and " +
+           percentText(kMedianOfNoise * options.relative_error) + ")",
        {},
        "more time"});
 }
@@ -184,6 +189,19 @@ double noiseOf(std::span<const ReferencePoint> points) {
   }
   if (error == 0) return 0;
   return total > 0 && std::isfinite(error) ? std::sqrt(error / total) : INFINITY;
+}
+
+double medianNoiseOf(std::span<const ReferencePoint> points) {
+  std::vector<double> noise;
+  for (const ReferencePoint& point : points) {
+    const double error = glm::length(point.standard_error), reflected = glm::length(point.reflected());
+    if (!std::isfinite(error)) return INFINITY;
+    if (reflected > 0) noise.push_back(error / reflected);
+  }
+  if (noise.empty()) return 0;
+  const auto middle = noise.begin() + static_cast<std::ptrdiff_t>(noise.size() / 2);
+  std::nth_element(noise.begin(), middle, noise.end());
+  return *middle;
 }
 
 Reference traceReference(const Scene& scene, const ReferenceOptions& options) {

@@ -51,7 +51,8 @@ struct ReferenceOptions {
   std::size_t points = 256;
   std::uint64_t seed = 1;
   bool emit_front_only = false;
-  /// Traced until RMS(standard error) / RMS(reflected radiosity) is no larger, or a limit is met.
+  /// Traced until RMS(standard error) / RMS(reflected radiosity) is no larger, and the median over points of
+  /// standard error / reflected radiosity no larger than twice it; or until a limit is met.
   double relative_error = 0.01;
   std::optional<double> max_seconds;
   std::uint64_t max_samples = 1u << 22;  ///< paths per point
@@ -80,5 +81,9 @@ void continueReference(const Scene& scene, const ReferenceOptions& options, Refe
 /// RMS(standard error) / RMS(reflected radiosity) over points and channels: the reference's own nRMSE.
 /// Infinite where some point has no standard error; 0 without points.
 double noiseOf(std::span<const ReferencePoint> points);
+
+/// Median over the points that reflect light of |standard error| / |reflected radiosity|: where a few points
+/// are far brighter than the rest, noiseOf speaks of those alone. Infinite and 0 as there.
+double medianNoiseOf(std::span<const ReferencePoint> points);
 
 }  // namespace unshot

@@ -29,7 +29,8 @@ std::vector<std::pair<std::string, Scene>> scenes() {
 }  // namespace
 
 void printReferenceTable(std::size_t points, double relative_error) {
-  TextTable table({"scene", "points", "noise", "paths a point", "seconds", "CPU s", "paths a second"});
+  TextTable table(
+      {"scene", "points", "noise", "median", "paths a point", "seconds", "CPU s", "paths a second"});
   for (const auto& [name, scene] : scenes()) {
     ReferenceOptions options;
     options.points = points;
@@ -39,7 +40,8 @@ void printReferenceTable(std::size_t points, double relative_error) {
     const Reference reference = traceReference(scene, options);
     const double samples = static_cast<double>(reference.points[0].samples);
     table.add({name, std::to_string(reference.points.size()),
-               figure("%.2f %%", 100 * noiseOf(reference.points)), figure("%.0f", samples),
+               figure("%.2f %%", 100 * noiseOf(reference.points)),
+               figure("%.2f %%", 100 * medianNoiseOf(reference.points)), figure("%.0f", samples),
                figure("%.2f", reference.seconds), figure("%.2f", cpuSeconds() - cpu),
                figure("%.0f", samples * static_cast<double>(points) / reference.seconds)});
   }

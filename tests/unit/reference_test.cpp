@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <limits>
 
 #include "support/error_of.h"
@@ -108,6 +109,7 @@ TEST(TracedReference, EndsAtTheErrorAskedForAndSaysWhenItCannot) {
   options.max_samples = 1u << 20;
   const Reference reached = traceReference(cubeOneFaceLit(0.5), options);
   EXPECT_LE(noiseOf(reached.points), 0.1);
+  EXPECT_LE(medianNoiseOf(reached.points), 0.2);
   EXPECT_TRUE(reached.diagnostics.empty());
   EXPECT_GT(reached.seconds, 0);
   options.relative_error = 1e-6;
@@ -115,6 +117,20 @@ TEST(TracedReference, EndsAtTheErrorAskedForAndSaysWhenItCannot) {
   const Reference limited = traceReference(cubeOneFaceLit(0.5), options);
   EXPECT_EQ(limited.points[0].samples, 512u);
   EXPECT_THAT(limited.diagnostics, Contains(Field(&Diagnostic::code, "reference-noise")));
+}
+
+TEST(TracedReference, HasTwoFiguresOfItsNoise) {
+  std::vector<ReferencePoint> points(3);
+  const double reflected[] = {1, 2, 100}, error[] = {0.5, 0.2, 1};
+  for (std::size_t k = 0; k < 3; ++k) {
+    points[k].emission = glm::dvec3(7);
+    points[k].radiosity = glm::dvec3(7 + reflected[k]);
+    points[k].standard_error = glm::dvec3(error[k]);
+  }
+  EXPECT_NEAR(noiseOf(points), std::sqrt((0.25 + 0.04 + 1) / 10'005), 1e-12);
+  EXPECT_NEAR(medianNoiseOf(points), 0.1, 1e-12);
+  EXPECT_EQ(noiseOf({}), 0);
+  EXPECT_EQ(medianNoiseOf({}), 0);
 }
 
 TEST(TracedReference, ReturnsWhatWasReachedWhenStopped) {
