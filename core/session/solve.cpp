@@ -203,7 +203,7 @@ void Solve::Impl::checkLimits() {
 // per patch where the last was for the total).
 bool Solve::Impl::reached() {
   if (measures.solverBound() > options.error || measures.drafts > 0) return false;
-  measures.bounds = budget->sharpen();
+  measures.bounds = SolverBounds::tighter(measures.bounds, budget->sharpen());
   return measures.solverBound() <= options.error;
 }
 
