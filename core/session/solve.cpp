@@ -102,7 +102,7 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl, const CancelT
                                            perPatch(*mesh, &Side::reflectance));
   cancel.check();
   ambient = std::make_unique<AmbientTerm>(mesh->patch_count, mesh->patch_air);
-  budget = std::make_unique<ErrorBudget>(*transport, *state, options.kept_bytes / 4);
+  budget = std::make_unique<ErrorBudget>(*mesh, *transport, *state, options.kept_bytes / 4, options.seed);
   transport->watchColumns([this](std::uint32_t q, const Column& column) {
     ambient->sees(q, column, transport->receivers());
     budget->columnComputed(q, column);
@@ -336,6 +336,17 @@ void Solve::setError(double error) {
   s.checkLimits();
   s.record();
 }
+
+const ErrorEstimates& Solve::estimate(std::size_t more_places) {
+  Impl& s = *impl_;
+  const double cpu_began = cpuSeconds();
+  rest();
+  s.budget->estimate(more_places);
+  s.seconds.cpu_solve += cpuSeconds() - cpu_began;
+  return s.budget->estimates();
+}
+
+const ErrorEstimates& Solve::estimates() const { return impl_->budget->estimates(); }
 
 void Solve::rest() { impl_->resting = true; }
 

@@ -11,6 +11,7 @@
 #include "base/cancel.h"
 #include "base/error.h"
 #include "scene/scene.h"
+#include "session/residuals.h"
 #include "session/snapshot.h"
 
 namespace unshot {
@@ -89,6 +90,10 @@ class Solve {
   /// Another SolveOptions::error: a running solve (or one at a limit) that has reached it converges at once,
   /// a converged one that has not runs again. Throws a usage Error unless 0 < error < 1.
   void setError(double error);
+  /// Estimates what form factors and mesh leave wrong in the present state, from so many more places than
+  /// before; the solve's clocks rest, but its cpu_solve counts it.
+  const ErrorEstimates& estimate(std::size_t more_places);
+  const ErrorEstimates& estimates() const;
   /// Stops the clocks of `measures`, as the last step left them, until the next step.
   void rest();
 

@@ -12,7 +12,8 @@
 // expected number of patches that light leaving a patch meets, itself included. Powers of M on |U| sharpen
 // it.
 //
-// Errors count on patches without emission of their own (on all, where all emit), weighted by area, over channels.
+// Errors count on patches without emission of their own (on all, where all emit), weighted by area, over
+// channels.
 #pragma once
 
 #include <algorithm>
