@@ -109,6 +109,7 @@ void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl) {
   setup.mesh = mesh.get();
   setup.seed = options.seed;
   setup.hemicube_resolution = options.hemicube_resolution;
+  setup.hemicube_drawing = options.hemicube_drawing;
   setup.gl = [&gl]() -> gl::Context& {
     gl::Context& context = gl();
     context.makeCurrent();
