@@ -124,6 +124,7 @@ void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl, const C
   setup.cancel = cancel;
   setup.seed = options.seed;
   setup.hemicube_resolution = options.hemicube_resolution;
+  setup.hemicube_drawing = options.hemicube_drawing;
   setup.gl = [&gl]() -> gl::Context& {
     gl::Context& context = gl();
     context.makeCurrent();

@@ -10,6 +10,7 @@
 
 #include "base/cancel.h"
 #include "base/error.h"
+#include "formfactor/methods.h"
 #include "scene/scene.h"
 #include "session/residuals.h"
 #include "session/snapshot.h"
@@ -35,7 +36,8 @@ struct SolveOptions {
   /// while the solution stays up to date: the first whole picture in a fraction of the time, the end a little
   /// later.
   bool draft_first = false;
-  std::uint32_t hemicube_resolution = 0;          ///< pixels along the top face; 0: chosen
+  std::uint32_t hemicube_resolution = 0;  ///< pixels along the top face; 0: chosen
+  HemicubeDrawing hemicube_drawing = HemicubeDrawing::kAuto;
   std::size_t kept_bytes = std::size_t{1} << 30;  ///< memory for kept columns of K [bytes]
 };
 
