@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "formfactor/methods.h"
 #include "scene/scene.h"
+#include "session/energy.h"
 #include "session/residuals.h"
 #include "session/snapshot.h"
 
@@ -46,16 +47,6 @@ struct PlanDecision {
   std::string what;
   std::string why;
   std::string saving;
-};
-
-/// Energy of a solve [W], summed over channels: emitted = absorbed + escaped + unshot (+ closure_defect).
-struct EnergyBalance {
-  double emitted = 0;         ///< sum A E
-  double absorbed = 0;        ///< sum A (1 - rho) H
-  double escaped = 0;         ///< shot, and met no surface
-  double unshot = 0;          ///< sum A U
-  double closure_defect = 0;  ///< shot, but lost or gained by approximate form factors
-  double residual() const { return emitted - absorbed - escaped - unshot - closure_defect; }
 };
 
 struct HistoryEntry {
@@ -110,7 +101,8 @@ class Solve {
   double progress() const;
 
   // For reports.
-  const SolveOptions& options() const;  ///< as asked for; `mode` and `error` as set last
+  std::vector<glm::dvec3> patchRadiosity() const;  ///< B = S + U, one per patch [W/m^2]
+  const SolveOptions& options() const;             ///< as asked for; `mode` and `error` as set last
   const Scene& scene() const;
   const Mesh& mesh() const;
   const std::string& modeKey() const;         ///< what `auto` became

@@ -4,6 +4,8 @@
 //
 // Safeguard: the expectation is a share of the ambient term, 1 at first. Where the unshot power has not
 // fallen over a pass, the share is halved, and below 1/16 it is 0: that is southwell, which never diverges.
+#include <algorithm>
+
 #include "solver/ambient.h"
 #include "solver/brightness.h"
 #include "solver/modes.h"
@@ -12,6 +14,9 @@ namespace unshot {
 namespace {
 
 constexpr double kLeastShare = 1.0 / 16;
+// A pass has to bring the unshot power down to this share, and no shot may bring it so far above the lowest
+// yet.
+constexpr double kLeastGain = 0.9, kMostRise = 1.5;
 
 class Overshoot final : public IterationMode {
  public:
@@ -42,20 +47,27 @@ class Overshoot final : public IterationMode {
   void start(const RadiosityState& state) {
     ambient_.emplace(state.patchCount());
     shot_.assign(state.patchCount(), 0);
-    watched_ = state.unshotPower();
+    watched_ = lowest_ = state.unshotPower();
   }
 
   void watch(const RadiosityState& state) {
-    if (share_ == 0 || ++since_ < state.patchCount()) return;
+    if (share_ == 0) return;
     const double now = state.unshotPower();
-    if (now > 0.9 * watched_) share_ = share_ / 2 < kLeastShare ? 0 : share_ / 2;
+    lowest_ = std::min(lowest_, now);
+    const bool pass_ends = ++since_ >= state.patchCount();
+    const bool fails = now > kMostRise * lowest_ || (pass_ends && now > kLeastGain * watched_);
+    if (fails) {
+      share_ = share_ / 2 < kLeastShare ? 0 : share_ / 2;
+      lowest_ = now;
+    }
+    if (!fails && !pass_ends) return;
     watched_ = now;
     since_ = 0;
   }
 
   std::optional<AmbientTerm> ambient_;
   std::vector<char> shot_;
-  double share_ = 1, watched_ = 0;
+  double share_ = 1, watched_ = 0, lowest_ = 0;
   std::size_t since_ = 0;
 };
 

@@ -182,8 +182,7 @@ TEST_F(SolveWriting, InterruptedOnceWritesAllAndEndsWith130) {
   EXPECT_THAT(folder_.read("p.ply"), StartsWith("ply\n"));
   const ProgramResult result = run_->wait();
   EXPECT_EQ(result.code, 130);
-  EXPECT_THAT(result.err,
-              HasSubstr("unshot: interrupted after the solve had ended (solver_"));
+  EXPECT_THAT(result.err, HasSubstr("unshot: interrupted after the solve had ended (solver_"));
   EXPECT_THAT(result.out, HasSubstr("p.ply"));
   EXPECT_THAT(nlohmann::json::parse(folder_.read("p.json"))["stopped_by"], testing::StartsWith("solver_"));
 }
