@@ -4,7 +4,7 @@
 
 in vec3 vertex_irradiance;
 in vec3 vertex_ambient;
-in vec3 vertex_unshot;
+in vec3 vertex_extra;
 flat in vec3 reflectance;
 flat in vec3 emission;
 
@@ -32,9 +32,9 @@ void main() {
     lamp = any(greaterThan(emission, vec3(0.0)));
   } else if (quantity == 1) {
     shown = received;
-  } else if (quantity == 2) {
-    float y = luminance(vertex_unshot);
-    shown = y < 0.0 ? -y * kNegative : vertex_unshot;
+  } else if (quantity == 2 || quantity >= 5) {
+    float y = luminance(vertex_extra);
+    shown = y < 0.0 ? -y * kNegative : vertex_extra;
   } else if (quantity == 3) {
     shown = emission;
   } else {

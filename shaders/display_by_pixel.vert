@@ -6,7 +6,7 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in uint side;
 layout(location = 3) in vec3 irradiance;
 layout(location = 4) in vec3 ambient;
-layout(location = 5) in vec3 unshot;
+layout(location = 5) in vec3 extra;  // what the mode shows besides the light: unshot, bounces or residual
 
 uniform mat4 view_projection;
 uniform vec3 eye;
@@ -16,7 +16,7 @@ uniform samplerBuffer sides;      // per side: reflectance, emission
 
 out vec3 vertex_irradiance;
 out vec3 vertex_ambient;
-out vec3 vertex_unshot;
+out vec3 vertex_extra;
 flat out vec3 reflectance;
 flat out vec3 emission;
 out float gl_ClipDistance[1];
@@ -30,7 +30,7 @@ void main() {
   gl_ClipDistance[0] = dot(normal, to_eye);
   vertex_irradiance = irradiance;
   vertex_ambient = ambient_weight * ambient;
-  vertex_unshot = unshot;
+  vertex_extra = extra;
   reflectance = texelFetch(sides, 2 * int(side)).rgb;
   emission = texelFetch(sides, 2 * int(side) + 1).rgb;
 }

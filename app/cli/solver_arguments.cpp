@@ -67,7 +67,8 @@ void SolverArguments::addMesh(Command& command) {
 void SolverArguments::addLimits(Command& command) {
   command.group("When to stop");
   command.add("--error", options_.error, "X",
-              "Stop when this fraction of the power is unshot, 0 < X < 1 (default 0.01)", properFraction());
+              "Stop when the bound of the solver's error is below this, 0 < X < 1 (default 0.01)",
+              properFraction());
   command.add("--max-seconds", options_.max_seconds, "T", "Stop after this time [s] and write the result",
               positiveNumber());
   command.add("--max-shots", options_.max_shots, "N", "Stop after so many shots and write the result",

@@ -178,7 +178,7 @@ const std::
                          const std::string wrong = checkWhole<16, 4096>(a);
                          return wrong.empty() && whole(a) % 2 != 0 ? "'" + a + "' is not even" : wrong;
                        }},
-                Action{"error", "X", "Stop when this fraction of the power is unshot", kNone,
+                Action{"error", "X", "Stop when the bound of the solver's error is below this", kNone,
                        [](Viewer& v, const std::string& a) { v.setError(*parseNumber(a)); }, checkFraction},
                 Action{"display", "KEY", "What is shown: a display mode", kNone,
                        [](Viewer& v, const std::string& a) { v.ui().settings.view.display = a; },

@@ -10,7 +10,7 @@
 #include "mesh/build.h"
 #include "render/display_modes.h"
 #include "solver/modes.h"
-#include "viewer/plot.h"
+#include "viewer/error_panel.h"
 #include "viewer/theme.h"
 #include "viewer/widgets.h"
 
@@ -18,8 +18,6 @@ namespace unshot {
 namespace {
 
 constexpr double kPanelWidth = 304;  // at scale 1 [px]
-
-bool section(const char* title) { return ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen); }
 
 template <class Row>
 std::string titleOf(std::span<const Row> table, const std::string& key) {
@@ -90,11 +88,15 @@ void head(Viewer& viewer) {
   dot(look.colour);
   ImGui::TextUnformatted(look.text);
   if (state.facts && state.phase != SessionPhase::kLoading) {
-    const std::string unshot = percentText(state.measures.unshot_fraction) + " unshot";
-    ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(unshot.c_str()).x);
-    ImGui::TextUnformatted(unshot.c_str());
+    const std::string wrong = errorInFront(state);
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(wrong.c_str()).x);
+    ImGui::TextUnformatted(wrong.c_str());
     tooltip(
-        "Light that is emitted or reflected but not yet shot: sum A |U| / sum A E over patches and channels");
+        "How wrong the reflected light still is (RMS error over RMS light): the bound of the solver's error, "
+        "and with "
+        "it, once they are known, the estimates of what form factors and mesh leave wrong. Before there is a "
+        "bound: "
+        "the light not yet shot");
   }
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
@@ -163,11 +165,13 @@ void chooseError(Viewer& viewer) {
   static constexpr std::array<Choice, 6> kChoices = {
       {{"0.1", 0.1}, {"0.03", 0.03}, {"0.01", 0.01}, {"0.003", 0.003}, {"0.001", 0.001}, {"0.0001", 0.0001}}};
   label("Stop at",
-        "The solve ends when this fraction of the emitted power is unshot; a smaller one goes on from there");
+        "The solve ends when its error is proven to be below this part of the reflected light; a smaller one "
+        "goes on from "
+        "there");
   const double error = viewer.ui().options.error;
-  if (!ImGui::BeginCombo("##error", (percentText(error) + " unshot").c_str())) return;
+  if (!ImGui::BeginCombo("##error", (percentText(error) + " error").c_str())) return;
   for (const Choice& choice : kChoices) {
-    if (ImGui::Selectable((percentText(choice.error) + " unshot").c_str(), choice.error == error))
+    if (ImGui::Selectable((percentText(choice.error) + " error").c_str(), choice.error == error))
       viewer.perform("error", choice.key);
   }
   ImGui::EndCombo();
@@ -195,34 +199,6 @@ void solveSection(Viewer& viewer) {
   chooseElements(viewer);
   chooseHemicube(viewer);
   chooseError(viewer);
-}
-
-void convergenceSection(Viewer& viewer) {
-  if (!section("Convergence")) return;
-  const SessionState& state = viewer.state();
-  const bool shots = viewer.ui().plot_shots;
-  std::vector<PlotPoint> points;
-  if (state.history) {
-    points.reserve(state.history->size() + 1);
-    const auto add = [&](const Measures& m) {
-      points.push_back({shots ? static_cast<double>(m.shots) : m.seconds, m.unshot_fraction});
-    };
-    for (const HistoryEntry& entry : *state.history) add(entry.measures);
-    if (state.facts) add(state.measures);
-  }
-  PlotStyle style;
-  style.x_unit = shots ? "" : "s";
-  style.goal = viewer.ui().options.error;
-  style.height = 9 * ImGui::GetFontSize();
-  // On the curve's first line, whose left half is free.
-  const ImVec2 corner = ImGui::GetCursorPos();
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0, 0));
-  if (ImGui::RadioButton("Seconds", !shots)) viewer.perform("plot", "seconds");
-  ImGui::SameLine();
-  if (ImGui::RadioButton("Shots", shots)) viewer.perform("plot", "shots");
-  ImGui::PopStyleVar();
-  ImGui::SetCursorPos(corner);
-  logPlot("##unshot", points, style);
 }
 
 void displaySection(Viewer& viewer) {
@@ -277,11 +253,21 @@ void figuresSection(Viewer& viewer) {
        countText(state.measures.shots) +
            (running ? "  (" + countText(static_cast<std::uint64_t>(rates.shots)) + "/s)" : ""),
        "How often a patch has shot its unshot radiosity");
-  std::string columns = countText(state.measures.rows);
-  if (running) columns += "  (" + countText(static_cast<std::uint64_t>(rates.columns)) + "/s)";
-  if (state.drawn > 0) columns += " from " + countText(state.drawn);
-  line(state.drawn > 0 ? "Columns, hemicubes" : "Columns", columns,
-       "Columns of form factors computed, and from how many hemicubes; the others were kept from before");
+  line("Columns",
+       countText(state.measures.rows) +
+           (running ? "  (" + countText(static_cast<std::uint64_t>(rates.columns)) + "/s)" : ""),
+       "Columns of form factors computed; the others were kept from before");
+  if (state.drawn > 0)
+    line("Hemicubes", countText(state.drawn), "Drawn so far: a patch that sees something near takes several");
+  line("Unshot light", percentText(state.measures.unshot_fraction),
+       "Light that is emitted or reflected but not yet shot: sum A |U| / sum A E over patches and channels");
+  if (state.radius_upper.x < kNoBound) {
+    const double low = std::max({state.radius_lower.x, state.radius_lower.y, state.radius_lower.z});
+    const double high = std::max({state.radius_upper.x, state.radius_upper.y, state.radius_upper.z});
+    line("Spectral radius", figureText(low) + " to " + figureText(high),
+         "Of M in B = E + M B, bracketed (largest channel): what a bounce leaves of the light in the long "
+         "run");
+  }
   const std::uint64_t drafts = state.measures.drafts + state.measures.refined;
   if (drafts > 0) {
     line("Drafts refined", countText(state.measures.refined) + " of " + countText(drafts),
@@ -353,6 +339,7 @@ void buildSidePanel(Viewer& viewer, int left) {
   ImGui::Separator();
   ImGui::BeginChild("sections");
   solveSection(viewer);
+  errorsSection(viewer);
   convergenceSection(viewer);
   displaySection(viewer);
   figuresSection(viewer);

@@ -35,6 +35,7 @@ class LogPlot {
   void drawGoal(ImDrawList& list) const;
   void drawArea(ImDrawList& list) const;
   void drawCurve(ImDrawList& list) const;
+  void drawBound(ImDrawList& list) const;
   void drawMarker(ImDrawList& list, ImVec2 at, ImU32 colour) const;
 
   float xOf(double x) const {
@@ -58,11 +59,17 @@ class LogPlot {
   const PlotPoint* last_ = nullptr;  // that is shown
   AxisRange x_range_, y_range_;
   std::vector<Tick> x_ticks_, y_ticks_;
-  std::vector<ImVec2> curve_;  // in pixels
+  std::vector<ImVec2> curve_, bound_;  // in pixels
   // Of the area with the curve, on whole pixels.
   float left_ = 0, right_ = 0, top_ = 0, bottom_ = 0;
   PlotLabels labels_, inner_labels_;
 };
+
+AxisRange valuesOf(std::span<const PlotPoint> points, const PlotStyle& style) {
+  std::vector<PlotPoint> all(points.begin(), points.end());
+  all.insert(all.end(), style.bound.begin(), style.bound.end());
+  return valueRange(all, style.goal);
+}
 
 LogPlot::LogPlot(std::span<const PlotPoint> points, const PlotStyle& style, ImVec2 min, ImVec2 max)
     : points_(points),
@@ -70,7 +77,7 @@ LogPlot::LogPlot(std::span<const PlotPoint> points, const PlotStyle& style, ImVe
       min_(min),
       max_(max),
       x_range_(positionRange(points)),
-      y_range_(valueRange(points, style.goal)),
+      y_range_(valuesOf(points, style)),
       labels_(min, max, 0.2f * em_),
       inner_labels_(min, max, 0.2f * em_) {
   for (const PlotPoint& point : points) {
@@ -83,6 +90,11 @@ LogPlot::LogPlot(std::span<const PlotPoint> points, const PlotStyle& style, ImVe
     if (isShown(point)) pixels.push_back(pixelOf(point));
   }
   curve_ = thinnedOut(pixels);
+  pixels.clear();
+  for (const PlotPoint& point : style.bound) {
+    if (isShown(point)) pixels.push_back(pixelOf(point));
+  }
+  bound_ = thinnedOut(pixels);
   placeLabels();
   placeGoalLabel();
 }
@@ -228,6 +240,15 @@ void LogPlot::drawCurve(ImDrawList& list) const {
   if (curve_.size() > begin + 1) piece(begin, curve_.size());
 }
 
+void LogPlot::drawBound(ImDrawList& list) const {
+  if (bound_.size() < 2) return;
+  const ImU32 colour = styled(ImGuiCol_Text, 0.65f);
+  list.AddPolyline(bound_.data(), static_cast<int>(bound_.size()), colour, 0, wholePixels(em_ / 12));
+  PlotLabels label({left_, top_}, {right_, bottom_}, 0);
+  label.place(style_.bound_label, {bound_[0].x + 0.4f * em_, bound_[0].y - 0.1f * em_}, {0, 1}, colour);
+  label.draw(list);
+}
+
 void LogPlot::drawMarker(ImDrawList& list, ImVec2 at, ImU32 colour) const {
   list.AddCircleFilled(at, 0.58f * em_, styled(ImGuiCol_PlotLines, 0.20f));
   list.AddCircleFilled(at, 0.34f * em_, styled(ImGuiCol_WindowBg));
@@ -238,6 +259,7 @@ void LogPlot::draw(ImDrawList& list) {
   drawGrid(list);
   drawArea(list);
   drawGoal(list);
+  drawBound(list);
   drawCurve(list);
   labels_.draw(list);
   inner_labels_.draw(list);

@@ -21,6 +21,9 @@ struct PlotStyle {
   std::optional<double> goal;  ///< a dashed line
   bool percent = true;         ///< y as 100 %, 10 %, ...
   float height = 0;            ///< in pixels; 0: five ninths of the width
+  /// A second, thinner curve over the same axes, such as a bound of the first.
+  std::span<const PlotPoint> bound = {};
+  const char* bound_label = "";  ///< beside it
 };
 
 /// Draws the curve at ImGui's cursor, as wide as the room there is, with decades, ticks at round numbers and,

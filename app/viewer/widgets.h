@@ -9,6 +9,9 @@
 
 namespace unshot {
 
+/// The header of a part of the panel; false where it is closed.
+bool section(const char* title);
+
 /// Shown while the mouse is over the item before; nothing for an empty text.
 void tooltip(std::string_view text);
 
@@ -27,7 +30,7 @@ template <class Row>
 std::string choose(const char* id, std::span<const Row> table, const std::string& current,
                    const std::string& shown, const char* automatic) {
   std::string chosen;
-  if (!ImGui::BeginCombo(id, shown.c_str())) return chosen;
+  if (!ImGui::BeginCombo(id, shown.c_str(), ImGuiComboFlags_HeightLarge)) return chosen;
   if (automatic) {
     if (ImGui::Selectable("Automatic", current == "auto")) chosen = "auto";
     tooltip(automatic);

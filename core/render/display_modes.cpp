@@ -5,7 +5,7 @@
 namespace unshot {
 
 std::span<const DisplayMode> displayModes() {
-  static constexpr std::array<DisplayMode, 7> table = {{
+  static constexpr std::array<DisplayMode, 9> table = {{
       {.info = {"radiosity", "Radiosity", "light as it leaves the surfaces, B = E + rho H, smooth"}},
       {.info = {"flat", "Radiosity per element", "each element in its own radiosity, as the solver sees it"},
        .per_element = true},
@@ -17,6 +17,13 @@ std::span<const DisplayMode> displayModes() {
       {.info = {"reflectance", "Reflectance", "the colours of the materials, rho, from black 0 to white 1"},
        .quantity = Quantity::kReflectance,
        .tone_mapped = false},
+      {.info = {"bounces", "Expected bounces",
+                "how many surfaces light from here meets on average, v of (I - M) v = 1; black until it is "
+                "known"},
+       .quantity = Quantity::kBounces},
+      {.info = {"residual", "Error of the mesh",
+                "where the mesh is worst: residual of the continuous equation at random points"},
+       .quantity = Quantity::kResidual},
       {.info = {"mesh", "Mesh", "radiosity with the edges of the elements"}, .edges = true},
   }};
   return table;

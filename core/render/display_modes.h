@@ -9,7 +9,15 @@
 namespace unshot {
 
 /// What is drawn; the numbers are those of shaders/display.frag.
-enum class Quantity { kRadiosity = 0, kIrradiance = 1, kUnshot = 2, kEmission = 3, kReflectance = 4 };
+enum class Quantity {
+  kRadiosity = 0,
+  kIrradiance = 1,
+  kUnshot = 2,
+  kEmission = 3,
+  kReflectance = 4,
+  kBounces = 5,
+  kResidual = 6
+};
 
 struct DisplayMode {
   ChoiceInfo info;

@@ -108,6 +108,8 @@ SceneView::SceneView(gl::Context& context)
       direct_(context),
       ambient_(context),
       unshot_(context),
+      bounces_(context),
+      residual_(context),
       triangles_(context),
       edges_(context),
       sides_(context),
@@ -134,6 +136,17 @@ void SceneView::setSnapshot(const Snapshot& snapshot) {
   update(fn, element_irradiance_, finiteTexels(snapshot.element_irradiance, mesh_->element_count));
   if (fresh || snapshot.direct != direct_field_ || snapshot.element_direct != element_direct_field_)
     uploadDirect(snapshot);
+  uploadShared(fresh, bounces_, bounces_field_, snapshot.bounces);
+  uploadShared(fresh, residual_, residual_field_, snapshot.residual);
+}
+
+void SceneView::uploadShared(bool fresh, const gl::Buffer& buffer,
+                             std::shared_ptr<const std::vector<glm::vec3>>& uploaded,
+                             const std::shared_ptr<const std::vector<glm::vec3>>& field) {
+  static const std::vector<glm::vec3> kNothing;
+  if (!fresh && uploaded == field) return;
+  update(context_.functions(), buffer, finiteValues(field ? *field : kNothing, mesh_->vertices.size()));
+  uploaded = field;
 }
 
 void SceneView::uploadDirect(const Snapshot& snapshot) {
@@ -146,6 +159,12 @@ void SceneView::uploadDirect(const Snapshot& snapshot) {
   element_direct_field_ = snapshot.element_direct;
 }
 
+const gl::Buffer* SceneView::extraField(Quantity quantity) const {
+  if (quantity == Quantity::kUnshot) return &unshot_;
+  if (quantity == Quantity::kBounces) return &bounces_;
+  return quantity == Quantity::kResidual ? &residual_ : nullptr;
+}
+
 void SceneView::uploadMesh(const Mesh& mesh) {
   const gl::Functions& fn = context_.functions();
   checkTexels(
@@ -155,7 +174,7 @@ void SceneView::uploadMesh(const Mesh& mesh) {
   vertices.reserve(mesh.vertices.size());
   for (const Vertex& v : mesh.vertices) vertices.push_back({v.position, v.normal, v.side});
   upload(fn, vertices_, vertices, GL_STATIC_DRAW);
-  for (const gl::Buffer* field : {&irradiance_, &direct_, &ambient_, &unshot_}) {
+  for (const gl::Buffer* field : {&irradiance_, &direct_, &ambient_, &unshot_, &bounces_, &residual_}) {
     allocate(fn, *field, mesh.vertices.size() * sizeof(glm::vec3));
   }
   upload(fn, triangles_, mesh.triangle_vertices, GL_STATIC_DRAW);
@@ -257,6 +276,7 @@ void SceneView::drawPieces(const Camera& camera, double aspect, const FrameWindo
   fn.BindVertexArray(vertex_array_.id());
   // The light that is shown, all or direct, is a matter of which buffer is read.
   attribute(fn, 3, options.indirect ? irradiance_ : direct_, sizeof(glm::vec3), 0);
+  if (const gl::Buffer* extra = extraField(mode.quantity)) attribute(fn, 5, *extra, sizeof(glm::vec3), 0);
   fn.BindBuffer(GL_ARRAY_BUFFER, 0);
   const auto draw = [&](GLenum kind, const gl::Buffer& indices, std::size_t corners, std::size_t first,
                         std::size_t end) {
@@ -267,7 +287,7 @@ void SceneView::drawPieces(const Camera& camera, double aspect, const FrameWindo
   const std::size_t triangles = static_cast<std::size_t>(triangle_index_count_) / 3;
   const std::size_t end = pieces.first + pieces.count;
   if (pieces.first < triangles) {
-    const bool by_pixel = mode.per_element || mode.quantity == Quantity::kUnshot;
+    const bool by_pixel = mode.per_element || extraField(mode.quantity);
     const gl::Program& program = by_pixel ? by_pixel_program_ : display_program_;
     useDisplay(program, matrix, camera, options);
     fn.Uniform1i(program.uniform("edges"), 0);

@@ -79,6 +79,11 @@ class SceneView {
  private:
   void uploadMesh(const Mesh& mesh);
   void uploadDirect(const Snapshot& snapshot);
+  void uploadShared(bool fresh, const gl::Buffer& buffer,
+                    std::shared_ptr<const std::vector<glm::vec3>>& uploaded,
+                    const std::shared_ptr<const std::vector<glm::vec3>>& field);
+  /// The buffer with what this quantity shows besides the light; null where that is all.
+  const gl::Buffer* extraField(Quantity quantity) const;
   void uploadEdges();
   void useDisplay(const gl::Program& program, const glm::mat4& matrix, const Camera& camera,
                   const ViewOptions& options) const;
@@ -86,11 +91,12 @@ class SceneView {
 
   gl::Context& context_;
   std::shared_ptr<const Mesh> mesh_;
-  std::shared_ptr<const std::vector<glm::vec3>> direct_field_, element_direct_field_;  // as uploaded
+  std::shared_ptr<const std::vector<glm::vec3>> direct_field_, element_direct_field_, bounces_field_,
+      residual_field_;  // as uploaded
   Bounds bounds_;
   gl::Program display_program_, by_pixel_program_, resolve_program_;
   gl::VertexArray vertex_array_, no_attributes_;
-  gl::Buffer vertices_, irradiance_, direct_, ambient_, unshot_;
+  gl::Buffer vertices_, irradiance_, direct_, ambient_, unshot_, bounces_, residual_;
   gl::Buffer triangles_, edges_;
   gl::Buffer sides_, triangle_elements_, element_irradiance_, element_direct_;
   gl::Texture sides_texture_, triangle_elements_texture_, element_irradiance_texture_,

@@ -30,6 +30,7 @@ class ErrorBudget {
   /// Estimates of what form factors and mesh leave wrong, from so many more places than before.
   const ErrorEstimates& estimate(std::size_t more_places);
   const ErrorEstimates& estimates() const { return estimates_; }
+  std::size_t places() const { return residuals_ ? residuals_->places() : 0; }
   /// See Residuals::patchResiduals; empty before the first estimate.
   std::vector<double> patchResiduals() const;
   double seconds() const { return seconds_; }  ///< wall time that it took so far

@@ -47,6 +47,10 @@ MeshField makeField(const Mesh& mesh, const Receivers& receivers, const std::vec
   return {{values.begin(), values.end()}, meanOverElements(mesh, values)};
 }
 
+std::vector<glm::vec3> fieldOfPatches(const Mesh& mesh, const std::vector<glm::dvec3>& values) {
+  return atVertices(mesh, [&](std::uint32_t e) { return values[mesh.element_patch[e]]; });
+}
+
 Snapshot makeFields(std::shared_ptr<const Mesh> mesh_in, const Transport& transport,
                     const RadiosityState& state, const AmbientTerm& ambient) {
   Snapshot out;

@@ -19,7 +19,10 @@ struct MeshField {
 /// what the receivers are, interpolated or averaged.
 MeshField makeField(const Mesh& mesh, const Receivers& receivers, const std::vector<glm::dvec3>& values);
 
-/// All of the snapshot but its measures and direct light.
+/// Values of patches (one each) at the vertices, interpolated.
+std::vector<glm::vec3> fieldOfPatches(const Mesh& mesh, const std::vector<glm::dvec3>& values);
+
+/// All of the snapshot but its measures, direct light, bounces and residual.
 Snapshot makeFields(std::shared_ptr<const Mesh> mesh, const Transport& transport, const RadiosityState& state,
                     const AmbientTerm& ambient);
 

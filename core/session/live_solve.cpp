@@ -13,6 +13,12 @@
 namespace unshot {
 namespace {
 
+// Errors are estimated from so many places while the solve runs and when it rests.
+constexpr std::size_t kPlacesInPassing = 128, kPlacesAtRest = 512, kPlacesAtOnce = 64;
+constexpr double kEstimateShare = 0.05;
+// An estimate passes over the whole mesh: on a larger one it would be felt as a pause.
+constexpr std::size_t kMostElementsInPassing = 200'000;
+
 // The exception in flight, worded for the person at the keyboard.
 Error presentError() {
   try {
@@ -81,7 +87,8 @@ void LiveSolve::carryOut(const Command& command) {
 void LiveSolve::step() {
   try {
     solve_->step();
-    stale_ = true;
+    stale_ = estimates_stale_ = true;
+    estimateInPassing();
   } catch (...) {
     noteException();
     broken_ = problem_->what();
@@ -89,6 +96,39 @@ void LiveSolve::step() {
   if (running() && steps_left_ > 0 && --steps_left_ == 0) paused_ = true;
   settle();
   if (!running() || pace_.due(wallSeconds(), *setup_.interval)) publish();
+}
+
+bool LiveSolve::hasSpareWork() const {
+  if (!solve_ || broken_ || running() || !task_.empty() || solve_->measures().shots == 0) return false;
+  if (!std::isfinite(solve_->measures().unshot_fraction)) return false;
+  return !no_more_places_ && (estimates_stale_ || solve_->places() < kPlacesAtRest);
+}
+
+void LiveSolve::estimate() {
+  estimateFrom(std::min(kPlacesAtOnce, kPlacesAtRest - std::min(kPlacesAtRest, solve_->places())));
+  publish();
+}
+
+// While it runs: as often as a small share of the solve's time allows.
+void LiveSolve::estimateInPassing() {
+  if (!running() || facts_->elements > kMostElementsInPassing) return;
+  if (estimate_seconds_ > kEstimateShare * solve_->measures().seconds) return;
+  estimateFrom(solve_->places() < kPlacesInPassing ? kPlacesInPassing / 8 : 0);
+}
+
+void LiveSolve::estimateFrom(std::size_t more_places) {
+  const double began = wallSeconds();
+  const std::size_t before = solve_->places();
+  try {
+    solve_->estimate(more_places);
+    no_more_places_ = more_places > 0 && solve_->places() == before;
+  } catch (...) {
+    noteException();
+    no_more_places_ = true;
+  }
+  estimate_seconds_ += wallSeconds() - began;
+  estimates_stale_ = false;
+  stale_ = true;  // the snapshot shows where the mesh is worst
 }
 
 void LiveSolve::perform(const command::Open& c) {
@@ -178,7 +218,9 @@ void LiveSolve::begin(Scene scene, const SolveOptions& options, double load_seco
   history_.reset();
   pace_.made(began, ended);
   broken_.reset();
-  failure_noted_ = paused_ = stale_ = false;
+  failure_noted_ = paused_ = stale_ = estimates_stale_ = false;
+  estimate_seconds_ = 0;
+  no_more_places_ = false;
   steps_left_ = 0;
   ++epoch_;
 }
@@ -250,6 +292,9 @@ void LiveSolve::fill(SessionState& state) const {
   state.progress = solve_->progress();
   state.kept_bytes = solve_->keptBytes();
   state.drawn = solve_->drawn();
+  state.estimates = solve_->estimates();
+  state.radius_lower = solve_->bounds().spectralRadiusLower();
+  state.radius_upper = solve_->bounds().spectralRadiusUpper();
   state.stopped_by = broken_.value_or(solve_->stoppedBy());
 }
 

@@ -67,6 +67,10 @@ class LiveSolve {
   bool running() const { return phase() == SessionPhase::kRunning; }
   /// One step of the solve; publishes where due.
   void step();
+  /// Whether estimate() has something to do while nothing else has.
+  bool hasSpareWork() const;
+  /// Errors estimated from more places; publishes.
+  void estimate();
 
  private:
   void perform(const command::Open& c);
@@ -83,6 +87,8 @@ class LiveSolve {
   void begin(Scene scene, const SolveOptions& options, double load_seconds);
   void announce(const std::string& task);
   void settle();
+  void estimateInPassing();
+  void estimateFrom(std::size_t more_places);
   void note(Error problem);
   void noteException();
   bool wantsSnapshot() const;
@@ -99,7 +105,10 @@ class LiveSolve {
   std::uint64_t steps_left_ = 0;  // before a pause; 0: no pause is due
   std::string task_;              // not empty while loading
   PublishPace pace_;
-  bool stale_ = false;  // the solve has gone on since the snapshot
+  bool stale_ = false;            // the solve has gone on since the snapshot
+  bool estimates_stale_ = false;  // and since the estimates
+  double estimate_seconds_ = 0;   // spent on them while running
+  bool no_more_places_ = false;   // the scene has none, or estimating failed
 
   std::uint64_t version_ = 0, epoch_ = 0, commands_ = 0, problems_ = 0;
   std::optional<Error> problem_;

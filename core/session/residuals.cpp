@@ -17,6 +17,9 @@ constexpr int kCarryProducts = 12;
 // hundreds.
 constexpr double kInterval = 2.1;
 
+// How many points of its own a patch needs to outweigh what is known of its side.
+constexpr double kBelief = 2;
+
 double fraction(double x) { return x - std::floor(x); }
 
 // Places follow each other by the golden ratio, so that any number of them is spread evenly.
@@ -243,19 +246,17 @@ std::vector<double> Residuals::patchResiduals(const RadiosityState& state) const
   std::vector<double> sum(mesh_.patch_count, 0), count(mesh_.patch_count, 0), side_sum(mesh_.sides.size(), 0),
       side_count(mesh_.sides.size(), 0);
   for (const Residual& r : pointResiduals(state)) {
-    const double square = std::max(glm::dot(r.of_look[0], r.of_look[1]) / 3, 0.0);
+    const double square = glm::dot(r.of_look[0], r.of_look[1]) / 3;
     sum[r.patch] += square;
     ++count[r.patch];
     side_sum[mesh_.patch_side[r.patch]] += square;
     ++side_count[mesh_.patch_side[r.patch]];
   }
+  // With few points of its own a patch is taken to be like its side.
   for (std::uint32_t q = 0; q < mesh_.patch_count; ++q) {
     const std::uint32_t s = mesh_.patch_side[q];
-    if (count[q] == 0 && side_count[s] > 0) {
-      sum[q] = side_sum[s];
-      count[q] = side_count[s];
-    }
-    sum[q] = count[q] > 0 ? std::sqrt(sum[q] / count[q]) : 0;
+    const double of_side = side_count[s] > 0 ? side_sum[s] / side_count[s] : 0;
+    sum[q] = std::sqrt(std::max(0.0, (sum[q] + kBelief * of_side) / (count[q] + kBelief)));
   }
   return sum;
 }

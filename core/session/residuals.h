@@ -44,8 +44,9 @@ class Residuals {
 
   /// Of the present state. Costs some ten products with the matrix.
   ErrorEstimates estimate(const RadiosityState& state, const PatchMatrix& matrix) const;
-  /// RMS over its points of the residual of each patch [W/m^2], channels averaged; a patch without points has
-  /// that of its side, a side without points 0.
+  /// RMS over its points of the residual of each patch [W/m^2], channels averaged; a patch with few points
+  /// leans on those of its side, a side without points has 0.
+
   std::vector<double> patchResiduals(const RadiosityState& state) const;
 
  private:

@@ -61,10 +61,12 @@ void Session::Impl::run() {
   while (!closing) {
     // Only where there is no memory for as much as a state: the next one says what became of the session.
     try {
-      if (const std::optional<Command> command = next(!live.running()))
+      if (const std::optional<Command> command = next(!live.running() && !live.hasSpareWork()))
         live.carryOut(*command);
       else if (live.running() && !closing)
         live.step();
+      else if (!command && !closing && live.hasSpareWork())
+        live.estimate();
     } catch (const std::bad_alloc&) {
     }
   }

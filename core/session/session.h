@@ -48,8 +48,11 @@ struct SessionState {
   std::shared_ptr<const SolveFacts> facts;  ///< null before the first scene
   std::shared_ptr<const Snapshot> snapshot;  ///< the last good one; null before the first scene
   std::shared_ptr<const std::vector<HistoryEntry>> history;  ///< of this solve, up to this moment
-  Measures measures;    ///< as of this moment; while running the snapshot may be older (Snapshot::measures)
-  double progress = 0;  ///< Solve::progress
+  Measures measures;  ///< as of this moment; while running the snapshot may be older (Snapshot::measures)
+  ErrorEstimates estimates;  ///< refined while nothing else is to be done
+  /// Bracket of the spectral radius of M, per channel; upper infinite where it is not known.
+  glm::dvec3 radius_lower{0.0}, radius_upper{kNoBound};
+  double progress = 0;           ///< Solve::progress
   std::size_t kept_bytes = 0;    ///< memory held by kept columns
   std::uint64_t drawn = 0;       ///< hemicubes drawn
   std::string stopped_by;        ///< Solve::stoppedBy, or what a step threw

@@ -40,6 +40,12 @@ struct Snapshot {
   std::shared_ptr<const std::vector<glm::vec3>> direct;
   /// H_d [W/m^2], one per element; null counts as 0.
   std::shared_ptr<const std::vector<glm::vec3>> element_direct;
+  /// Expected number of surfaces that light leaving here meets, this one included, per channel, one per
+  /// vertex (ErrorBounds::expectedBounces); null where it is not known.
+  std::shared_ptr<const std::vector<glm::vec3>> bounces;
+  /// Where the mesh is worst: RMS residual of the continuous equation [W/m^2], one per vertex (all channels
+  /// alike); null where it is not known.
+  std::shared_ptr<const std::vector<glm::vec3>> residual;
   Measures measures;
 };
 

@@ -56,6 +56,8 @@ struct Solve::Impl {
   double measured_wall = 0, measured_cpu = 0;                            // when `measures` were taken
   std::shared_ptr<const std::vector<glm::vec3>> direct, element_direct;  // for emission_shots of the state
   std::uint64_t emission_shots = 0;
+  std::shared_ptr<const std::vector<glm::vec3>> bounces, residual;
+  std::uint64_t bounces_revision = 0;  // of the bounds
   StagnationWatch stagnation;
 
   Impl(Scene scene_in, SolveOptions options_in)
@@ -320,9 +322,17 @@ const ErrorEstimates& Solve::estimate(std::size_t more_places) {
   const double cpu_began = cpuSeconds();
   rest();
   s.budget->estimate(more_places);
+  std::vector<glm::dvec3> residuals;
+  for (const double r : s.budget->patchResiduals()) residuals.emplace_back(r);
+  if (!residuals.empty())
+    s.residual = std::make_shared<const std::vector<glm::vec3>>(fieldOfPatches(*s.mesh, residuals));
   s.seconds.cpu_solve += cpuSeconds() - cpu_began;
   return s.budget->estimates();
 }
+
+std::size_t Solve::places() const { return impl_->budget->places(); }
+
+const ErrorBounds& Solve::bounds() const { return impl_->budget->bounds(); }
 
 const ErrorEstimates& Solve::estimates() const { return impl_->budget->estimates(); }
 
@@ -344,6 +354,14 @@ Snapshot Solve::snapshot() const {
     impl_->element_direct = std::make_shared<const std::vector<glm::vec3>>(std::move(direct.elements));
     impl_->emission_shots = s.state->emissionShots();
   }
+  if (s.bounces_revision != s.budget->bounds().revision()) {
+    const std::vector<glm::dvec3>& v = s.budget->bounds().expectedBounces();
+    impl_->bounces =
+        v.empty() ? nullptr : std::make_shared<const std::vector<glm::vec3>>(fieldOfPatches(*s.mesh, v));
+    impl_->bounces_revision = s.budget->bounds().revision();
+  }
+  out.bounces = s.bounces;
+  out.residual = s.residual;
   out.direct = s.direct;
   out.element_direct = s.element_direct;
   return out;

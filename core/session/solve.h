@@ -87,6 +87,8 @@ class Solve {
   /// before; the solve's clocks rest, but its cpu_solve counts it.
   const ErrorEstimates& estimate(std::size_t more_places);
   const ErrorEstimates& estimates() const;
+  std::size_t places() const;  ///< that estimates() are from
+  const ErrorBounds& bounds() const;
   /// Stops the clocks of `measures`, as the last step left them, until the next step.
   void rest();
 

@@ -206,6 +206,7 @@ bool ErrorBounds::refresh() {
     low = std::min(low, least(w_[q]));
   }
   if (low <= 0) v_.clear();
+  ++revision_;
   compared_version_ = matrix_.version();
   bracketRadius();
   return gains;

@@ -59,6 +59,8 @@ class ErrorBounds {
   bool comparable() const { return !v_.empty() && compared_version_ == matrix_.version(); }
   /// v, one per patch; empty where there is none.
   const std::vector<glm::dvec3>& expectedBounces() const { return v_; }
+  /// One more whenever expectedBounces() has changed.
+  std::uint64_t revision() const { return revision_; }
   /// Lower and upper bound of the spectral radius of M, per channel (Collatz and Wielandt); once complete.
   const glm::dvec3& spectralRadiusLower() const { return radius_lower_; }
   const glm::dvec3& spectralRadiusUpper() const { return radius_upper_; }
@@ -86,6 +88,7 @@ class ErrorBounds {
   const RadiosityState& state_;
   std::vector<char> counted_;  // patches on which errors count
   double counted_area_ = 0;
+  std::uint64_t revision_ = 0;
   bool complete_ = false;
   std::uint64_t version_ = 0;                           // of the matrix at the last refresh
   std::uint64_t compared_version_ = ~std::uint64_t{0};  // of the matrix that w_ belongs to

@@ -1,0 +1,105 @@
+#include "viewer/error_panel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/text.h"
+#include "viewer/plot.h"
+#include "viewer/widgets.h"
+
+namespace unshot {
+namespace {
+
+// Bounds above it say nothing: the picture may be black.
+constexpr double kMostShown = 1;
+
+// A bar on a logarithmic scale from 0.01 % to 100 %, with what it stands for and its value.
+void errorBar(const char* name, double value, const std::string& text, const ImVec4& colour,
+              std::string_view tip) {
+  label(name, tip);
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetFrameHeight();
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const ImVec2 end(corner.x + width, corner.y + height);
+  draw->AddRectFilled(corner, end, ImGui::GetColorU32(ImGuiCol_FrameBg), 3);
+  const double share = value > 0 ? std::clamp(1 + std::log10(value) / 4, 0.0, 1.0) : 0.0;
+  if (share > 0) {
+    draw->AddRectFilled(corner, {corner.x + static_cast<float>(share) * width, end.y},
+                        ImGui::GetColorU32(colour), 3);
+  }
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  draw->AddText({end.x - size.x - 6, corner.y + (height - size.y) / 2}, ImGui::GetColorU32(ImGuiCol_Text),
+                text.c_str());
+  ImGui::Dummy({width, height});
+  tooltip(tip);
+}
+
+std::string estimateText(const ErrorEstimate& e) {
+  if (e.places == 0) return "not known yet";
+  return percentText(e.value) + " (" + percentText(e.low) + " to " + percentText(e.high) + ")";
+}
+
+}  // namespace
+
+std::string errorInFront(const SessionState& state) {
+  const double bound = state.measures.solverBound();
+  if (bound >= kMostShown) return percentText(state.measures.unshot_fraction) + " unshot";
+  if (state.estimates.both.places == 0) return "error below " + percentText(bound);
+  return "error about " + percentText(bound + state.estimates.both.value);
+}
+
+void errorsSection(Viewer& viewer) {
+  if (!section("Errors")) return;
+  const SessionState& state = viewer.state();
+  const double bound = state.measures.solverBound();
+  errorBar(
+      "Solver", bound < kMostShown ? bound : 0,
+      bound < kMostShown ? "at most " + percentText(bound) : "no bound yet", {0.62f, 0.45f, 0.16f, 1},
+      "Distance to the exact solution for these form factors: a bound, proven at every step. The bars are "
+      "logarithmic, from 0.01 % to 100 %");
+  errorBar("Form factors", state.estimates.form_factor.value, estimateText(state.estimates.form_factor),
+           {0.24f, 0.45f, 0.62f, 1},
+           "Estimated at random places against far denser rays, with its 95 % interval; refined while "
+           "nothing else is "
+           "to be done");
+  errorBar("Mesh", state.estimates.discretisation.value, estimateText(state.estimates.discretisation),
+           {0.34f, 0.52f, 0.3f, 1},
+           "What the mesh adds: light shown against light gathered at random points, carried on by all "
+           "bounces; an "
+           "estimate with its 95 % interval");
+}
+
+void convergenceSection(Viewer& viewer) {
+  if (!section("Convergence")) return;
+  const SessionState& state = viewer.state();
+  const bool shots = viewer.ui().plot_shots;
+  std::vector<PlotPoint> points, bound;
+  if (state.history) {
+    points.reserve(state.history->size() + 1);
+    const auto add = [&](const Measures& m) {
+      const double x = shots ? static_cast<double>(m.shots) : m.seconds;
+      points.push_back({x, m.unshot_fraction});
+      if (m.solverBound() < kMostShown) bound.push_back({x, m.solverBound()});
+    };
+    for (const HistoryEntry& entry : *state.history) add(entry.measures);
+    if (state.facts) add(state.measures);
+  }
+  PlotStyle style;
+  style.x_unit = shots ? "" : "s";
+  style.goal = viewer.ui().options.error;
+  style.height = 9 * ImGui::GetFontSize();
+  // On the curve's first line, whose left half is free.
+  const ImVec2 corner = ImGui::GetCursorPos();
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0, 0));
+  if (ImGui::RadioButton("Seconds", !shots)) viewer.perform("plot", "seconds");
+  ImGui::SameLine();
+  if (ImGui::RadioButton("Shots", shots)) viewer.perform("plot", "shots");
+  ImGui::PopStyleVar();
+  ImGui::SetCursorPos(corner);
+  style.bound = bound;
+  style.bound_label = "bound of the error";
+  logPlot("##unshot", points, style);
+}
+
+}  // namespace unshot

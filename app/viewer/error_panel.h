@@ -1,0 +1,19 @@
+// What the side panel says of errors: one number, bars by cause, the curve.
+#pragma once
+
+#include <string>
+
+#include "viewer/viewer.h"
+
+namespace unshot {
+
+/// The one number: how wrong the picture is, or what is unshot while that is not known.
+std::string errorInFront(const SessionState& state);
+
+/// From which cause the picture is wrong.
+void errorsSection(Viewer& viewer);
+
+/// Unshot light and the error's bound against seconds or shots.
+void convergenceSection(Viewer& viewer);
+
+}  // namespace unshot
