@@ -18,6 +18,7 @@ namespace unshot {
 namespace gl {
 class Context;
 }
+class FormFactorMethod;
 
 /// What the user asks of a solve. Keys are those of the tables (`unshot list`).
 struct SolveOptions {
@@ -36,6 +37,9 @@ struct SolveOptions {
   bool draft_first = false;
   std::uint32_t hemicube_resolution = 0;          ///< pixels along the top face; 0: chosen
   std::size_t kept_bytes = std::size_t{1} << 30;  ///< memory for kept columns of K [bytes]
+  /// Where given: stands between the solve and its form-factor method, such as to keep columns for another
+  /// solve of the same scene and options.
+  std::function<std::unique_ptr<FormFactorMethod>(std::unique_ptr<FormFactorMethod>)> wrap_form_factors;
 };
 
 /// Something the solve left out or chose by looking at the scene, with its reason (law 7).
@@ -114,6 +118,10 @@ class Solve {
   EnergyBalance energy() const;
   const PhaseSeconds& seconds() const;
   std::size_t keptBytes() const;  ///< memory held by kept columns
+  /// Memory of the state and of what the mode holds beside it [bytes].
+  std::size_t workingBytes() const;
+  /// S + U, the radiosity of each patch as far as it is known [W/m^2].
+  std::vector<glm::dvec3> patchRadiosity() const;
   std::uint64_t drawn() const;    ///< hemicubes drawn
   /// The bound that reached the error asked for ("solver_upper", "solver_total_upper"), "nothing unshot",
   /// "max_seconds", "max_shots", "interrupted", "no light", or what failed.

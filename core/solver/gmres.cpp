@@ -31,12 +31,20 @@ class Gmres final : public IterationMode {
     return used;
   }
 
+  std::size_t bytes() const override {
+    return directions_.empty() ? 0 : directions_.size() * bytesOf(directions_.front());
+  }
+
  private:
   struct Direction {
     LightFlow flow;
     std::vector<glm::dvec3> image;  // (I - M) d
     glm::dvec3 square;              // of the image
   };
+
+  static std::size_t bytesOf(const Direction& direction) {
+    return (direction.flow.irradiance.size() + 2 * direction.image.size()) * sizeof(glm::dvec3);
+  }
 
   void finishSweep(RadiosityState& state, const Transport& transport) {
     Direction fresh;
@@ -51,8 +59,7 @@ class Gmres final : public IterationMode {
     fresh.square = weighted(weight_, fresh.image, fresh.image);
     const glm::dvec3 factor = quotient(weighted(weight_, state.unshot(), fresh.image), fresh.square);
     state.add(factor, fresh.flow);
-    const std::size_t bytes = (fresh.flow.irradiance.size() + 2 * fresh.image.size()) * sizeof(glm::dvec3);
-    const std::size_t most = std::clamp(kDirectionBytes / bytes, kLeastDirections, kMostDirections);
+    const std::size_t most = std::clamp(kDirectionBytes / bytesOf(fresh), kLeastDirections, kMostDirections);
     if (directions_.size() >= most) directions_.pop_front();
     directions_.push_back(std::move(fresh));
   }
