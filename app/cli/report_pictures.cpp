@@ -15,7 +15,7 @@ namespace unshot {
 namespace {
 
 constexpr int kWidth = 240, kHeight = 180;
-constexpr double kFractions[] = {0.05, 0.15, 0.4, 1};    // of the time that the quickest takes
+constexpr double kFractions[] = {0.05, 0.15, 0.4, 1};     // of the time that the quickest takes
 constexpr double kRowFractions[] = {0.05, 0.1, 0.25, 1};  // of all rows
 
 /// The costs at which pictures are taken: of busy time, or of rows.
@@ -30,7 +30,8 @@ double quickest(const CurveRecord& record) {
   for (const double level : {0.01, 0.03, 0.1}) {
     double least = kNoBound;
     for (const ModeCurve& curve : record.curves) {
-      if (const auto t = costToReach(curve.points, level, error.of, busySecondsOf)) least = std::min(least, *t);
+      if (const auto t = costToReach(curve.points, level, error.of, busySecondsOf))
+        least = std::min(least, *t);
     }
     if (least < kNoBound) return least;
   }
@@ -61,7 +62,9 @@ Stops rowStops(const CurveRecord& record) {
 /// Takes all pictures with the first one's camera and exposure.
 class Photographer {
  public:
-  Photographer(LazyContext& context) : context_(context) { options_.width = kWidth, options_.height = kHeight; }
+  Photographer(LazyContext& context) : context_(context) {
+    options_.width = kWidth, options_.height = kHeight;
+  }
 
   std::string take(const Solve& solve) {
     const Snapshot snapshot = solve.snapshot();
@@ -134,13 +137,13 @@ void addMode(const CurveRecord& record, const ModeCurve& curve, const std::vecto
 ReportPictures makePictures(const CurveRecord& record, CurveRuns& runs, LazyContext& context,
                             double max_seconds, const RunWatch& watch) {
   ReportPictures out;
-  const auto best = std::min_element(
-      record.curves.begin(), record.curves.end(), [&](const ModeCurve& a, const ModeCurve& b) {
-        const auto left = [](const ModeCurve& c) {
-          return c.points.empty() ? kNoBound : c.points.back().unshot_fraction;
-        };
-        return left(a) < left(b);
-      });
+  const auto best = std::min_element(record.curves.begin(), record.curves.end(),
+                                     [&](const ModeCurve& a, const ModeCurve& b) {
+                                       const auto left = [](const ModeCurve& c) {
+                                         return c.points.empty() ? kNoBound : c.points.back().unshot_fraction;
+                                       };
+                                       return left(a) < left(b);
+                                     });
   if (best == record.curves.end() || best->points.empty()) return out;
   const double began = wallSeconds();
   const std::vector<Stops> stops{timeStops(record), rowStops(record)};
@@ -150,11 +153,12 @@ ReportPictures makePictures(const CurveRecord& record, CurveRuns& runs, LazyCont
     rows.push_back(countText(static_cast<std::uint64_t>(stops[1].costs[k])) + " rows (" +
                    percentText(kRowFractions[k]) + ")");
   out.tables = {
-      emptyTable("The pictures at equal times",
-                 "What each mode could show after the same busy time, all from one place and with one exposure, "
-                 "as solved: without any estimate of the light still under way. Black means that no light has "
-                 "come there yet.",
-                 times),
+      emptyTable(
+          "The pictures at equal times",
+          "What each mode could show after the same busy time, all from one place and with one exposure, "
+          "as solved: without any estimate of the light still under way. Black means that no light has "
+          "come there yet.",
+          times),
       emptyTable("The pictures at equal rows", "The same after the same number of form-factor rows.", rows)};
   try {
     Photographer photographer(context);

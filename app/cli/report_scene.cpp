@@ -21,7 +21,7 @@ namespace unshot {
 namespace {
 
 // Shares of a scene's time: a run besides form factors, and all pictures.
-constexpr double kRunShare = 0.1, kPictureShare = 0.2;
+constexpr double kRunShare = 0.1, kPictureShare = 0.4;
 // Work done by then, for the progress: reference, exact solution, first runs, repeats, pictures.
 constexpr double kDone[] = {0, 0.1, 0.4, 0.65, 0.9, 1};
 
@@ -92,12 +92,9 @@ class SceneRun {
     reference_ = cachedReference(scene_, options, request_.out);
     printDiagnostics(std::cerr, reference_.diagnostics);
     for (const ReferencePoint& p : reference_.points) probes_.push_back({p.position, p.normal});
-    out_.record.reference = {reference_.points.size(),
-                             noiseOf(reference_.points),
-                             medianNoiseOf(reference_.points),
-                             reference_.seconds,
-                             reference_.from_file,
-                             referencePath({}, scene_, options).string()};
+    out_.record.reference = {
+        reference_.points.size(), noiseOf(reference_.points), medianNoiseOf(reference_.points),
+        reference_.seconds,       reference_.from_file,       referencePath({}, scene_, options).string()};
     began_ = wallSeconds();
   }
 
@@ -129,8 +126,9 @@ class SceneRun {
                                   watch(2, at / n, (at + 1) / n, modes[k]));
       if (!curve.left_out.empty()) note(curve.mode + " is left out: " + curve.left_out);
       if (curve.failure) {
-        std::cerr << "unshot: " << scene_.path.string() << ": " << curve.mode << ": "
-                  << curve.failure->fullText() << std::endl;
+        const Error said(curve.failure->kind(), curve.mode + ": " + curve.failure->what(),
+                         scene_.path.string(), curve.failure->advice());
+        std::cerr << "unshot: " << said.fullText() << std::endl;
         if (!out_.failure) out_.failure = curve.failure;
       }
       // Each has a first point at least, and more than that unless it was interrupted at once.

@@ -56,11 +56,11 @@ std::string curvesCsv(const CurveRecord& record) {
   for (const ModeCurve& curve : record.curves) {
     for (std::size_t k = 0; k < curve.points.size(); ++k) {
       const CurvePoint& p = curve.points[k];
-      const auto total = p.solver ? std::optional(p.solver->total) : std::nullopt;
-      text += lineOf({curve.mode, countCell(k), countCell(p.step), countCell(p.shots), countCell(p.rows), cell(p.cpu_seconds),
-                      cell(p.cpu_seconds_min), cell(p.cpu_seconds_max), cell(p.seconds),
-                      cell(p.unshot_fraction), cell(solverErrorOf(p)), cell(p.bounds.lower),
-                      cell(p.bounds.upper), cell(total), cell(p.bounds.total_upper), cell(p.total_error)});
+      text +=
+          lineOf({curve.mode, countCell(k), countCell(p.step), countCell(p.shots), countCell(p.rows),
+                  cell(p.cpu_seconds), cell(p.cpu_seconds_min), cell(p.cpu_seconds_max), cell(p.seconds),
+                  cell(p.unshot_fraction), cell(solverErrorOf(p)), cell(p.bounds.lower), cell(p.bounds.upper),
+                  cell(solverTotalErrorOf(p)), cell(p.bounds.total_upper), cell(p.total_error)});
     }
   }
   return text;

@@ -15,7 +15,6 @@ Json numberOrNull(std::optional<double> value) {
 Json textOrNull(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 Json jsonOf(const CurvePoint& p) {
-  const auto total = p.solver ? std::optional(p.solver->total) : std::nullopt;
   return {{"step", p.step},
           {"shots", p.shots},
           {"rows", p.rows},
@@ -27,7 +26,7 @@ Json jsonOf(const CurvePoint& p) {
           {"solver_error", numberOrNull(solverErrorOf(p))},
           {"solver_lower", numberOrNull(p.bounds.lower)},
           {"solver_upper", numberOrNull(p.bounds.upper)},
-          {"solver_total_error", numberOrNull(total)},
+          {"solver_total_error", numberOrNull(solverTotalErrorOf(p))},
           {"solver_total_upper", numberOrNull(p.bounds.total_upper)},
           {"total_error", numberOrNull(p.total_error)}};
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/csv_table.h"
 #include "base/text.h"
 #include "report/curve_record.h"
 #include "solver/modes.h"
@@ -59,7 +60,8 @@ std::string headOf(const CurvePlot& plot, const CurveRecord& record, const Axis&
          "set datafile separator comma\n"
          "set datafile columnheaders\n"
          "set logscale xy\n"
-         "set grid xtics ytics mxtics mytics lc rgb '#cccccc' lw 0.8, lc rgb '#eeeeee' lw 0.5\n"
+         "set grid xtics ytics mxtics mytics lc rgb '#bbbbbb' lw 0.8, lc rgb '#e4e4e4' lw 0.5\n"
+         "set autoscale xfix\n"
          "set border 3 lc rgb '#444444'\n"
          "set tics nomirror\n"
          "set key outside right center vertical Left reverse spacing 1.25 noenhanced\n"
@@ -75,9 +77,9 @@ std::string headOf(const CurvePlot& plot, const CurveRecord& record, const Axis&
          low +
          ":200]\n"
          "do for [kind in only] {\n"
-         "  if (kind eq 'svg') set terminal svg size 960,540 dynamic font 'Helvetica,Arial,sans-serif,15' "
-         "background '#ffffff'\n"
-         "  if (kind eq 'png') set terminal pngcairo size 1440,810 font 'Sans,14' linewidth 1.5\n"
+         "  if (kind eq 'svg') { set terminal svg size 960,540 dynamic font 'Helvetica,Arial,sans-serif,15' "
+         "background '#ffffff' }\n"
+         "  if (kind eq 'png') { set terminal pngcairo size 1440,810 font 'Sans,14' linewidth 1.5 }\n"
          "  set output '" +
          plot.name + ".'.kind\n  plot \\\n";
 }
@@ -103,11 +105,31 @@ CurvePlot errorPlot(const CurveRecord& record, const std::string& name, const st
     }
     const std::size_t row = rowOf(curve.mode);
     lines.push_back(series(curve.mode, x, column) + styleOf(curve.mode, "linespoints", 2.2, "1") + " pt " +
-                    std::to_string(kMarks[row % kMarks.size()]) + " ps 0.8 pi 9 title " +
-                    quoted(curve.mode));
+                    std::to_string(kMarks[row % kMarks.size()]) + " ps 0.8 pi 9 title " + quoted(curve.mode));
   }
   if (any_bound) lines.push_back("NaN with lines lc rgb '#666666' lw 0.8 dt 2 title 'its upper bound'");
   plot.script = headOf(plot, record, x, "error of the reflected light") + tailOf(lines);
+  return plot;
+}
+
+/// The end of the same on a linear time axis, where log axes crowd the modes together.
+std::optional<CurvePlot> finishPlot(const CurveRecord& record, const char* column, const char* bound) {
+  const ErrorMeasure error = mainMeasure(record);
+  double first = kNoBound, last = 0;
+  for (const ModeCurve& curve : record.curves) {
+    const auto begins = costToReach(curve.points, kErrorLevels[0], error.of, busySecondsOf);
+    const auto ends = costToReach(curve.points, record.options.error, error.of, busySecondsOf);
+    if (begins) first = std::min(first, *begins);
+    if (ends) last = std::max(last, *ends);
+  }
+  if (!(last > first)) return std::nullopt;
+  CurvePlot plot = errorPlot(record, "finish_over_time", "the finish", kTime, column, bound);
+  plot.caption =
+      "The end of the same curves with time on an ordinary axis: who saves form factors arrives early at "
+      "coarse errors, who needs all of them drops late but steeply.";
+  const std::string before = "do for [kind";
+  plot.script.insert(plot.script.find(before), "unset logscale x\nset xrange [" + shortest(first * 0.95) +
+                                                   ":" + shortest(last * 1.02) + "]\n");
   return plot;
 }
 
@@ -146,23 +168,26 @@ std::vector<CurvePlot> plotsOf(const CurveRecord& record) {
   const char* column = record.hasExact() ? "solver_error" : "solver_total_upper";
   const char* bound = record.hasExact() ? "solver_upper" : nullptr;
   const std::string what = record.hasExact() ? "error" : "bound of the total error";
-  plots.push_back(
-      errorPlot(record, "error_over_time", what + " against busy time", kTime, column, bound));
+  plots.push_back(errorPlot(record, "error_over_time", what + " against busy time", kTime, column, bound));
   plots.back().caption =
-      "Both axes are logarithmic: each grid line to the right is ten times the time, each one down a tenth of "
+      "Both axes are logarithmic: each grid line to the right is ten times the time, each one down a tenth "
+      "of "
       "the error. The curve that is lowest at a moment has the best picture then. Everything counts as busy "
       "time, form factors too.";
-  plots.push_back(errorPlot(record, "error_over_rows", what + " against form-factor rows", kRows, column,
-                            bound));
+  if (auto finish = finishPlot(record, column, bound)) plots.push_back(std::move(*finish));
+  plots.push_back(
+      errorPlot(record, "error_over_rows", what + " against form-factor rows", kRows, column, bound));
   plots.back().caption =
-      "The same runs, counted in rows of form factors, the dear part of radiosity: what one patch sees of all "
+      "The same runs, counted in rows of form factors, the dear part of radiosity: what one patch sees of "
+      "all "
       "others, whatever machine computes it. A vertical drop is work along rows that are already at hand, "
       "which costs none.";
   if (record.hasTotal()) {
     plots.push_back(errorPlot(record, "total_error_over_time", "total error against busy time", kTime,
                               "total_error", nullptr));
     plots.back().caption =
-        "Measured against path-traced truth at fixed points. Here every curve ends on the same level: what is "
+        "Measured against path-traced truth at fixed points. Here every curve ends on the same level: what "
+        "is "
         "left is the error of mesh and form factors, which no iteration can take away. To go on solving "
         "beyond the bend is wasted.";
   }

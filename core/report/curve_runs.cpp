@@ -67,7 +67,7 @@ std::unique_ptr<Solve> CurveRuns::begin(const std::string& mode, double error) {
   if (!reflectance_.empty()) return solve;
   const Mesh& mesh = solve->mesh();
   for (const std::uint32_t side : mesh.patch_side) reflectance_.push_back(mesh.sides[side].reflectance);
-  figures_ = {solve->formFactorsKey(), solve->plan(),        solve->diagnostics(),  mesh.surfaces.size(),
+  figures_ = {solve->formFactorsKey(), solve->plan(),    solve->diagnostics(), mesh.surfaces.size(),
               mesh.element_count,      mesh.patch_count, mesh.vertices.size()};
   return solve;
 }

@@ -61,6 +61,9 @@ void takeMedians(ModeCurve& curve) {
 std::optional<double> solverErrorOf(const CurvePoint& point) {
   return point.solver ? std::optional(point.solver->nrmse) : std::nullopt;
 }
+std::optional<double> solverTotalErrorOf(const CurvePoint& point) {
+  return point.solver ? std::optional(point.solver->total) : std::nullopt;
+}
 std::optional<double> totalErrorOf(const CurvePoint& point) { return point.total_error; }
 std::optional<double> busySecondsOf(const CurvePoint& point) { return point.cpu_seconds; }
 std::optional<double> rowsOf(const CurvePoint& point) { return static_cast<double>(point.rows); }

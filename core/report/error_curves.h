@@ -72,6 +72,7 @@ using Quantity = std::function<std::optional<double>(const CurvePoint&)>;
 
 // Those that are asked for most.
 std::optional<double> solverErrorOf(const CurvePoint& point);
+std::optional<double> solverTotalErrorOf(const CurvePoint& point);
 std::optional<double> totalErrorOf(const CurvePoint& point);
 std::optional<double> busySecondsOf(const CurvePoint& point);
 std::optional<double> rowsOf(const CurvePoint& point);

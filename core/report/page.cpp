@@ -20,7 +20,7 @@ h3 { font-size: 20px; margin: 32px 0 6px; }
 p, li { max-width: 78ch; } .faint, figcaption, .note { color: var(--faint); font-size: 15px; }
 nav a { margin-right: 14px; } figure { margin: 16px 0; } figure img { width: 100%; height: auto; }
 .head { display: flex; gap: 24px; flex-wrap: wrap; align-items: flex-start; } .head > div { flex: 1 1 420px; }
-.head img { width: 400px; max-width: 100%; height: auto; border-radius: 4px; }
+.head figure { margin-left: 24px; } .head img { width: 400px; max-width: 100%; height: auto; border-radius: 4px; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; margin: 12px 0; font-variant-numeric: tabular-nums; }
 th, td { padding: 5px 12px; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }
@@ -169,8 +169,8 @@ std::string pictureTable(const PictureTable& table) {
 std::string factsOf(const CurveRecord& r) {
   std::string text = countedText(r.scene.triangles, "triangle") + ", solved with " +
                      countedText(r.solve.elements, "element") + " and " +
-                     countedText(r.solve.patches, "patch", "patches") + "; form factors: " +
-                     r.solve.form_factors + ". ";
+                     countedText(r.solve.patches, "patch", "patches") +
+                     "; form factors: " + r.solve.form_factors + ". ";
   if (r.hasExact()) {
     text += "The exact solution of this system, which the errors are measured against, was found by " +
             r.exact.mode + ". ";
@@ -188,8 +188,9 @@ std::string factsOf(const CurveRecord& r) {
     if (!curve.points.empty()) least = std::min(least, curve.runs.size());
   }
   if (least != ~std::size_t{0} && least > 0) {
-    text += "Times are " + (least > 1 ? "medians of " + countedText(least, "run") + " or more"
-                                      : std::string("of a single run for some modes or all")) +
+    text += "Times are " +
+            (least > 1 ? "medians of " + countedText(least, "run") + " or more"
+                       : std::string("of a single run for some modes or all")) +
             ". ";
   }
   return text;
@@ -252,20 +253,21 @@ std::string pageHtml(std::span<const PageScene> scenes, const PageTexts& texts) 
   std::string out =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
       "content=\"width=device-width, initial-scale=1\">\n<title>Unshot: error against time</title>\n<style>" +
-      std::string(kStyle) +
-      "</style>\n</head>\n<body>\n<h1>How soon is the light right?</h1>\n" + kIntroduction;
+      std::string(kStyle) + "</style>\n</head>\n<body>\n<h1>How soon is the light right?</h1>\n" +
+      kIntroduction;
   if (scenes.size() > 1) {
     out += "<nav>";
     for (const PageScene& scene : scenes) {
-      out += "<a href=\"#" + escaped(scene.record->folder) + "\">" + escaped(scene.record->scene_name) +
-             "</a>";
+      out +=
+          "<a href=\"#" + escaped(scene.record->folder) + "\">" + escaped(scene.record->scene_name) + "</a>";
     }
     out += "</nav>\n";
   }
   for (const PageScene& scene : scenes) out += sceneHtml(scene);
   return out + "<hr>\n" +
-         paragraph("Made by unshot " UNSHOT_VERSION ": " + texts.command + ". Measured on " + texts.machine + ".",
-                   "faint") +
+         paragraph(
+             "Made by unshot " UNSHOT_VERSION ": " + texts.command + ". Measured on " + texts.machine + ".",
+             "faint") +
          "</body>\n</html>\n";
 }
 

@@ -70,7 +70,8 @@ std::string perSecond(const CurveRecord& record, double level) {
   double rows_of_all = 0;
   for (const Entry& entry : ranked) rows_of_all = std::max(rows_of_all, entry.rows);
   if (first.rows < (1 - kSame) * rows_of_all) {
-    text += "It saves form factors: " + rowsText(first.rows) + " rows in place of " + rowsText(rows_of_all) + ".";
+    text +=
+        "It saves form factors: " + rowsText(first.rows) + " rows in place of " + rowsText(rows_of_all) + ".";
   } else if (last.shots > 1.5 * first.shots) {
     text += "All of them need nearly all rows; what differs is the work along rows at hand: " +
             rowsText(first.shots) + " shots against " + rowsText(last.shots) + ".";

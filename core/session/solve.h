@@ -122,7 +122,7 @@ class Solve {
   std::size_t workingBytes() const;
   /// S + U, the radiosity of each patch as far as it is known [W/m^2].
   std::vector<glm::dvec3> patchRadiosity() const;
-  std::uint64_t drawn() const;    ///< hemicubes drawn
+  std::uint64_t drawn() const;  ///< hemicubes drawn
   /// The bound that reached the error asked for ("solver_upper", "solver_total_upper"), "nothing unshot",
   /// "max_seconds", "max_shots", "interrupted", "no light", or what failed.
   const std::string& stoppedBy() const;

@@ -3,7 +3,8 @@
 // as negative unshot light.
 //
 // Safeguard: the expectation is a share of the ambient term, 1 at first. Where the unshot power has not
-// fallen over a pass, the share is halved, and below 1/16 it is 0: that is southwell, which never diverges.
+// fallen over a pass, or has doubled before, the share is halved, and below 1/16 it is 0: that is southwell,
+// which never diverges.
 #include "solver/ambient.h"
 #include "solver/brightness.h"
 #include "solver/modes.h"
@@ -12,6 +13,7 @@ namespace unshot {
 namespace {
 
 constexpr double kLeastShare = 1.0 / 16;
+constexpr double kRunaway = 2;
 
 class Overshoot final : public IterationMode {
  public:
@@ -46,8 +48,10 @@ class Overshoot final : public IterationMode {
   }
 
   void watch(const RadiosityState& state) {
-    if (share_ == 0 || ++since_ < state.patchCount()) return;
+    if (share_ == 0) return;
     const double now = state.unshotPower();
+    // A few patches that shoot to and fro can run away long before a pass is over.
+    if (++since_ < state.patchCount() && now < kRunaway * watched_) return;
     if (now > 0.9 * watched_) share_ = share_ / 2 < kLeastShare ? 0 : share_ / 2;
     watched_ = now;
     since_ = 0;

@@ -1,7 +1,6 @@
 // Solving for real: what is written, how it ends, and that nothing is lost on the way.
 #include <gmock/gmock.h>
 #include <sys/stat.h>
-#include <time.h>
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -18,6 +17,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
+using testing_support::eventually;
 using testing_support::ProgramResult;
 using testing_support::ProgramRun;
 using testing_support::runProgram;
@@ -116,17 +116,6 @@ TEST(Solve, AnOutputThatFailsLateDoesNotCostTheOthers) {
   EXPECT_THAT(folder.read("p.json"), StartsWith("{"));
 }
 
-/// Waits until `ready`, looking again every 5 ms; false after two minutes.
-template <class Ready>
-bool eventually(Ready ready) {
-  for (int k = 0; k < 24000; ++k) {
-    if (ready()) return true;
-    const timespec pause{0, 5'000'000};
-    ::nanosleep(&pause, nullptr);
-  }
-  return false;
-}
-
 class SolveInterrupted : public testing::TestWithParam<int> {};
 
 TEST_P(SolveInterrupted, EndsWith130AndWritesTheResult) {
@@ -181,8 +170,7 @@ TEST_F(SolveWriting, InterruptedOnceWritesAllAndEndsWith130) {
   EXPECT_THAT(folder_.read("p.ply"), StartsWith("ply\n"));
   const ProgramResult result = run_->wait();
   EXPECT_EQ(result.code, 130);
-  EXPECT_THAT(result.err,
-              HasSubstr("unshot: interrupted after the solve had ended (solver_"));
+  EXPECT_THAT(result.err, HasSubstr("unshot: interrupted after the solve had ended (solver_"));
   EXPECT_THAT(result.out, HasSubstr("p.ply"));
   EXPECT_THAT(nlohmann::json::parse(folder_.read("p.json"))["stopped_by"], testing::StartsWith("solver_"));
 }
