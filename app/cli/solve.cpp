@@ -25,6 +25,11 @@
 namespace unshot {
 namespace {
 
+/// Places to estimate errors at: a small part of what the solve took.
+std::size_t placesFor(const Measures& measures) {
+  return std::clamp<std::size_t>(measures.rows / 4, 32, 256);
+}
+
 /// Steps until the solve is over or the user interrupts it.
 void runSteps(Solve& solve, const InterruptFlag& interrupted, Progress& progress) {
   while (solve.state() == SolveState::kRunning) {
@@ -35,6 +40,10 @@ void runSteps(Solve& solve, const InterruptFlag& interrupted, Progress& progress
     solve.step();
     const Measures& m = solve.measures();
     progress.update({solve.progress(), m.unshot_fraction, m.solverBound(), m.shots, m.seconds});
+  }
+  if (!interrupted.raised()) {
+    progress.phase("estimating errors");
+    solve.estimate(placesFor(solve.measures()));
   }
   progress.finish();
 }

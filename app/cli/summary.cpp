@@ -32,6 +32,16 @@ std::string boundText(const SolverBounds& bounds) {
   return text.empty() ? "no bound yet" : text;
 }
 
+std::string estimateText(const ErrorEstimate& e) {
+  return percentText(e.value) + " (" + percentText(e.low) + " to " + percentText(e.high) + ")";
+}
+
+std::string estimatesText(const ErrorEstimates& estimates) {
+  if (estimates.both.places == 0) return "not estimated";
+  return "form factors " + estimateText(estimates.form_factor) + ", mesh " +
+         estimateText(estimates.discretisation) + ", both " + estimateText(estimates.both);
+}
+
 std::string rendererText(const RunRecord& record) {
   if (!record.gl) return "none needed";
   return record.gl->provider + ", " + record.gl->renderer + (record.gl->hardware ? "" : " (software)");
@@ -59,6 +69,7 @@ void printSummary(std::ostream& out, const RunRecord& record, const SolveOptions
       {"shots", shotsText(record.counts)},
       {"unshot", percentText(record.measures.unshot_fraction)},
       {"solver error", boundText(record.measures.bounds)},
+      {"other errors", estimatesText(record.estimates)},
       {"time", durationText(total) + " (load " + durationText(seconds.load) + ", mesh " +
                    durationText(seconds.mesh) + ", plan " + durationText(seconds.plan) + ", solve " +
                    durationText(seconds.solve) + "), CPU " + durationText(seconds.cpu_solve)},

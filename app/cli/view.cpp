@@ -36,6 +36,7 @@ class ViewArguments {
     setup.bundled = bundledScenes();
     setup.options = solver_.options();
     setup.options.draft_first = true;
+    setup.options.hemicube_drawing = HemicubeDrawing::kClassic;
     setup.settings.view.display = display_;
     if (!script_.empty()) {
       setup.script = readScript(script_);

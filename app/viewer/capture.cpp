@@ -81,10 +81,12 @@ void Viewer::screenshot(std::filesystem::path path, bool with_panels) {
 void Viewer::capture(const Capture& wanted, int width, int height, int scene_width) {
   try {
     const StateGuard guard(setup_.display->functions());
-    if (!scene_.empty() && state_->facts && framed_scene_ == state_->facts->scene_path) {
+    if (sceneStands()) {
+      scene_.setSnapshot(state_->snapshot);
       int samples = kSamplesAlongPixel;
       while (samples > 1 && 1.0 * width * height * samples * samples > kMostSamples) --samples;
-      scene_.draw(navigator_.camera(), ui_.settings, scene_width, height, samples, -1);
+      scene_.draw({navigator_.camera(), ui_.settings, scene_width, height, samples}, -1,
+                  SceneDisplay::kAtOnce);
     }
     const Canvas canvas(*setup_.display, width, height);
     paint(canvas.framebuffer(), width, height, wanted.with_panels);

@@ -297,7 +297,7 @@ void figuresSection(Viewer& viewer) {
        "Memory of the columns that are kept");
   char frame[32];
   std::snprintf(frame, sizeof frame, "%.1f ms", viewer.frameMilliseconds());
-  line("Frame", frame, "To draw the scene and the panels once");
+  line("Frame", frame, "To draw the scene and the panels once; a slow renderer does it over several frames");
   const gl::ContextInfo& gl = viewer.renderer();
   ImGui::PushTextWrapPos(0);
   ImGui::TextDisabled("%s, %s", gl.renderer.c_str(), gl.provider.c_str());

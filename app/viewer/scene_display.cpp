@@ -1,6 +1,7 @@
 #include "viewer/scene_display.h"
 
 #include <cmath>
+#include <utility>
 
 #include "base/clock.h"
 
@@ -11,26 +12,39 @@ constexpr double kGlideSeconds = 0.25;  // time constant of the exposure
 constexpr double kArrivedStops = 0.01;
 // A jump of the light by more than this (a new display mode, a door opened) is not worth a glide.
 constexpr double kJumpStops = 6;
+constexpr std::size_t kFewestPieces = 10'000;
+constexpr std::size_t kFewestRows = 64;
 
 bool same(const Camera& a, const Camera& b) {
   return a.eye == b.eye && a.at == b.at && a.up == b.up && a.fov_deg == b.fov_deg;
 }
 
-bool same(const DisplaySettings& a, const DisplaySettings& b) {
-  return a.view.display == b.view.display && a.view.exposure_ev == b.view.exposure_ev &&
-         a.view.ambient == b.view.ambient && a.view.indirect == b.view.indirect &&
-         a.exposure_locked == b.exposure_locked;
+bool sameSamples(const SceneDisplay::Wanted& a, const SceneDisplay::Wanted& b) {
+  const ViewOptions &va = a.settings.view, &vb = b.settings.view;
+  return same(a.camera, b.camera) && va.display == vb.display && va.ambient == vb.ambient &&
+         va.indirect == vb.indirect && a.width == b.width && a.height == b.height && a.samples == b.samples;
+}
+
+ViewOptions viewOf(const SceneDisplay::Wanted& wanted) {
+  ViewOptions view = wanted.settings.view;
+  view.supersampling = wanted.samples;
+  return view;
 }
 
 }  // namespace
 
 SceneDisplay::SceneDisplay(gl::Context& context)
-    : context_(context), view_(context), picture_(context), framebuffer_(context) {}
+    : context_(context),
+      view_(context),
+      shown_{gl::Texture(context), gl::Framebuffer(context)},
+      next_{gl::Texture(context), gl::Framebuffer(context)} {}
 
 void SceneDisplay::setSnapshot(std::shared_ptr<const Snapshot> snapshot) {
   if (snapshot == snapshot_) return;
   snapshot_ = std::move(snapshot);
   drawn_.reset();
+  sampled_.reset();
+  making_.reset();
   if (snapshot_) view_.setSnapshot(*snapshot_);
 }
 
@@ -52,26 +66,26 @@ std::optional<Camera> SceneDisplay::continueFraming(std::optional<double> second
   return found;
 }
 
-bool SceneDisplay::stale(const Camera& camera, const DisplaySettings& settings, int width, int height,
-                         int samples) const {
-  if (!drawn_ || gliding_) return true;
-  return !same(drawn_->camera, camera) || !same(drawn_->settings, settings) || drawn_->width != width ||
-         drawn_->height != height || drawn_->samples != samples;
+bool SceneDisplay::stale(const Wanted& wanted) const {
+  return !drawn_ || gliding_ || !sameSamples(*drawn_, wanted) ||
+         drawn_->settings.view.exposure_ev != wanted.settings.view.exposure_ev ||
+         drawn_->settings.exposure_locked != wanted.settings.exposure_locked;
 }
 
-void SceneDisplay::allocate(int width, int height) {
-  if (width == width_ && height == height_) return;
+bool SceneDisplay::sampled(const Wanted& wanted) const { return sampled_ && sameSamples(*sampled_, wanted); }
+
+void SceneDisplay::allocate(Picture& picture, int width, int height) {
+  if (width == picture.width && height == picture.height) return;
   const gl::Functions& fn = context_.functions();
-  const StateGuard guard(fn);
-  fn.BindTexture(GL_TEXTURE_2D, picture_.id());
+  fn.BindTexture(GL_TEXTURE_2D, picture.texture.id());
   fn.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
   fn.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   fn.BindTexture(GL_TEXTURE_2D, 0);
-  fn.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
-  fn.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, picture_.id(), 0);
-  framebuffer_.checkComplete("the picture in the window");
-  width_ = width;
-  height_ = height;
+  fn.BindFramebuffer(GL_FRAMEBUFFER, picture.framebuffer.id());
+  fn.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, picture.texture.id(), 0);
+  picture.framebuffer.checkComplete("the picture in the window");
+  picture.width = width;
+  picture.height = height;
 }
 
 double SceneDisplay::nextExposure(double metered, double seconds) {
@@ -83,60 +97,149 @@ double SceneDisplay::nextExposure(double metered, double seconds) {
   return arrive ? metered : exposure_ * std::exp2(stops * (1 - std::exp(-seconds / kGlideSeconds)));
 }
 
-bool SceneDisplay::draw(const Camera& camera, const DisplaySettings& settings, int width, int height,
-                        int samples, double seconds) {
-  if (width <= 0 || height <= 0 || !stale(camera, settings, width, height, samples)) return false;
-  allocate(width, height);
-  const gl::Functions& fn = context_.functions();
-  const StateGuard guard(fn);
-  fn.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
-  ViewOptions view = settings.view;
-  view.supersampling = samples;
-  // Direct light alone keeps the exposure of the whole, so that the eye sees what is missing.
-  const bool follow = !settings.exposure_locked && view.indirect;
-  if (drawn_ && drawn_->settings.view.display != view.display) snap_ = true;
-  gliding_ = false;
-  if (!follow && !snap_) {
-    view.automatic_exposure = exposure_;
-    view_.draw(camera, view, {0, 0, width, height});
-  } else {
-    const double metered = view_.drawSamples(camera, view, width, height);
-    exposure_ = nextExposure(metered, seconds);
-    view_.showSamples(exposure_, view, {0, 0, width, height});
+bool SceneDisplay::draw(const Wanted& wanted, double seconds, double deadline) {
+  if (wanted.width <= 0 || wanted.height <= 0) return false;
+  // A picture for a window of another size is of no use.
+  if (making_ && (deadline == kAtOnce || making_->wanted.width != wanted.width ||
+                  making_->wanted.height != wanted.height)) {
+    making_.reset();
   }
-  drawn_ = Drawn{camera, settings, width, height, samples};
+  if (!making_ && !stale(wanted)) {
+    glide_seconds_ = 0;
+    return false;
+  }
+  glide_seconds_ = seconds < 0 || glide_seconds_ < 0 ? -1 : glide_seconds_ + seconds;
+  const StateGuard guard(context_.functions());
+  if (!making_) begin(wanted);
+  deadline = extended(deadline);
+  if (!drawSamples(deadline)) return true;
+  if (making_->row == 0) expose();
+  if (!showRows(deadline)) return true;
+  std::swap(shown_, next_);
+  drawn_ = making_->wanted;
+  shown_camera_ = drawn_->camera;
+  making_.reset();
   next_band_ = 0;
+  band_piece_ = 0;
   return true;
 }
 
-bool SceneDisplay::sharpen(int samples) {
-  if (!drawn_ || next_band_ >= kBands) return false;
-  const int bottom = height_ * next_band_ / kBands, top = height_ * (next_band_ + 1) / kBands;
-  ++next_band_;
-  if (samples <= drawn_->samples || top == bottom) return true;
-  const StateGuard guard(context_.functions());
-  if (band_.width() != width_ * samples || band_.height() != (top - bottom) * samples) {
-    band_ = LinearTarget();
-    band_ = LinearTarget(context_, width_ * samples, (top - bottom) * samples);
-  }
-  ViewOptions view = drawn_->settings.view;
-  view.supersampling = samples;
-  band_.bind();
-  const FrameWindow window{{0, static_cast<double>(bottom) / height_},
-                           {1, static_cast<double>(top) / height_}};
-  view_.drawLinear(drawn_->camera, static_cast<double>(width_) / height_, window, view);
-  context_.functions().BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
-  view_.resolve(band_, exposure_, view, {0, bottom, width_, top - bottom});
+void SceneDisplay::begin(const Wanted& wanted) {
+  making_ = Making{wanted};
+  drawn_anew_ = !sampled(wanted);
+  if (!drawn_anew_) return;
+  sampled_.reset();
+  const int width = wanted.width * wanted.samples, height = wanted.height * wanted.samples;
+  if (samples_.width() == width && samples_.height() == height) return;
+  samples_ = LinearTarget();  // the old one goes first: both at once may not fit
+  samples_ = LinearTarget(context_, width, height);
+}
+
+/// Later by as much as it takes to end the picture, if that is little.
+double SceneDisplay::extended(double deadline) {
+  if (deadline == kAtOnce) return deadline;
+  const bool drawn = sampled(making_->wanted);
+  const std::size_t pieces = drawn ? 0 : view_.pieceCount(viewOf(making_->wanted)) - making_->piece;
+  const double rest = (pieces > 0 ? pieces_.seconds(pieces) : 0) +
+                      rows_.seconds(static_cast<std::size_t>(making_->wanted.height - making_->row));
+  const double now = wallSeconds(), most = Pace::kOverrun * (deadline - now);
+  return rest <= most ? now + most : deadline;
+}
+
+/// The two passes of a picture, each until it is done or time is up. Returns whether it is done.
+bool SceneDisplay::drawSamples(double deadline) {
+  if (sampled(making_->wanted)) return true;
+  if (!drawPieces(samples_, making_->wanted, {}, making_->piece, deadline)) return false;
+  sampled_ = making_->wanted;
+  metered_.reset();
   return true;
+}
+
+bool SceneDisplay::showRows(double deadline) {
+  const Wanted& wanted = making_->wanted;
+  const gl::Functions& fn = context_.functions();
+  allocate(next_, wanted.width, wanted.height);
+  fn.BindFramebuffer(GL_FRAMEBUFFER, next_.framebuffer.id());
+  for (double now = wallSeconds(); making_->row < wanted.height;) {
+    const auto rest = static_cast<std::size_t>(wanted.height - making_->row);
+    const std::size_t rows = deadline == kAtOnce ? rest : rows_.next(deadline - now, rest, kFewestRows);
+    view_.resolve(samples_, exposure_, viewOf(wanted),
+                  {0, making_->row, wanted.width, static_cast<int>(rows)}, making_->row);
+    making_->row += static_cast<int>(rows);
+    if (deadline == kAtOnce) continue;
+    fn.Finish();
+    const double start = std::exchange(now, wallSeconds());
+    rows_.note(rows, now - start);
+    if (now >= deadline) break;
+  }
+  return making_->row == wanted.height;
+}
+
+bool SceneDisplay::drawPieces(const LinearTarget& target, const Wanted& wanted, const FrameWindow& window,
+                              std::size_t& piece, double deadline) {
+  const gl::Functions& fn = context_.functions();
+  const ViewOptions view = viewOf(wanted);
+  const double aspect = static_cast<double>(wanted.width) / wanted.height;
+  const std::size_t all = view_.pieceCount(view);
+  target.bind();
+  double now = wallSeconds();
+  do {
+    const std::size_t count =
+        deadline == kAtOnce ? all - piece : pieces_.next(deadline - now, all - piece, kFewestPieces);
+    view_.drawPieces(wanted.camera, aspect, window, view, {piece, count});
+    piece += count;
+    if (deadline == kAtOnce) continue;
+    fn.Finish();  // else a software renderer only takes notes
+    const double start = std::exchange(now, wallSeconds());
+    pieces_.note(count, now - start);
+  } while (piece < all && now < deadline);
+  return piece >= all;
+}
+
+void SceneDisplay::expose() {
+  const Wanted& wanted = making_->wanted;
+  // Direct light alone keeps the exposure of the whole, so that the eye sees what is missing.
+  const bool follow = !wanted.settings.exposure_locked && wanted.settings.view.indirect;
+  if (drawn_ && drawn_->settings.view.display != wanted.settings.view.display) snap_ = true;
+  gliding_ = false;
+  if (follow || snap_) {
+    if (!metered_) metered_ = view_.meter(samples_, viewOf(wanted));
+    exposure_ = nextExposure(*metered_, glide_seconds_);
+  }
+  glide_seconds_ = 0;
+}
+
+void SceneDisplay::sharpen(int samples, double deadline) {
+  if (sharp()) return;
+  const int width = drawn_->width, height = drawn_->height;
+  const int bottom = height * next_band_ / kBands, top = height * (next_band_ + 1) / kBands;
+  if (samples > drawn_->samples && top > bottom) {
+    const StateGuard guard(context_.functions());
+    if (band_.width() != width * samples || band_.height() != (top - bottom) * samples) {
+      band_ = LinearTarget();
+      band_ = LinearTarget(context_, width * samples, (top - bottom) * samples);
+      band_piece_ = 0;
+    }
+    Wanted finer = *drawn_;
+    finer.samples = samples;
+    const FrameWindow window{{0, static_cast<double>(bottom) / height},
+                             {1, static_cast<double>(top) / height}};
+    if (!drawPieces(band_, finer, window, band_piece_, deadline)) return;
+    context_.functions().BindFramebuffer(GL_FRAMEBUFFER, shown_.framebuffer.id());
+    view_.resolve(band_, exposure_, viewOf(finer), {0, bottom, width, top - bottom});
+  }
+  ++next_band_;
+  band_piece_ = 0;
 }
 
 void SceneDisplay::copyTo(int x, int y) const {
-  if (width_ == 0) return;
+  const auto [width, height] = std::pair(shown_.width, shown_.height);
+  if (width == 0) return;
   const gl::Functions& fn = context_.functions();
   GLint read = 0;
   fn.GetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read);
-  fn.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.id());
-  fn.BlitFramebuffer(0, 0, width_, height_, x, y, x + width_, y + height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  fn.BindFramebuffer(GL_READ_FRAMEBUFFER, shown_.framebuffer.id());
+  fn.BlitFramebuffer(0, 0, width, height, x, y, x + width, y + height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   fn.BindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read));
 }
 

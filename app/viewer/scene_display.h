@@ -1,14 +1,19 @@
 // The picture of the scene in the viewer: the newest snapshot from the camera, drawn again only when
 // something has changed, with an exposure that glides; and the search for a first camera, a little in each
 // frame.
+//
+// Where drawing takes longer than a frame may, it goes on over several: triangles, then rows of pixels, until
+// the picture is whole. The one before is shown meanwhile.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 
 #include "render/automatic_camera.h"
 #include "render/scene_view.h"
 #include "session/snapshot.h"
+#include "viewer/pace.h"
 
 namespace unshot {
 
@@ -34,18 +39,31 @@ class SceneDisplay {
   /// Works on it for about `seconds`, or to its end (no value). Returns the camera once it is found.
   std::optional<Camera> continueFraming(std::optional<double> seconds);
 
-  /// Whether draw() would change the picture: something is new, or the exposure is still gliding.
-  bool stale(const Camera& camera, const DisplaySettings& settings, int width, int height, int samples) const;
-  /// Brings the picture up to date: `samples` along a pixel's side, `seconds` since the last call for the
-  /// glide of the exposure (negative: no glide). Returns whether anything was drawn.
-  bool draw(const Camera& camera, const DisplaySettings& settings, int width, int height, int samples,
-            double seconds);
-  /// Once the picture is up to date: draws it again in bands, a band a call, with `samples` along a pixel's
-  /// side, so that a software renderer smooths edges without holding the window up. Returns whether there was
-  /// one to draw.
-  bool sharpen(int samples);
+  /// What a picture is of.
+  struct Wanted {
+    Camera camera;
+    DisplaySettings settings;
+    int width = 0, height = 0;  ///< [px]
+    int samples = 1;            ///< along a pixel's side
+  };
+  /// Draws at once, however long it takes.
+  static constexpr double kAtOnce = std::numeric_limits<double>::infinity();
+
+  /// Works on the picture until wallSeconds() is about `deadline`; kAtOnce: to its end, from the beginning.
+  /// One that was begun is finished first, as it was wanted then. `seconds` since the last call are for the
+  /// glide of the exposure (negative: no glide). Returns whether there was anything to do.
+  bool draw(const Wanted& wanted, double seconds, double deadline);
+  /// Whether a picture was begun and is not yet shown.
+  bool drawing() const { return making_.has_value(); }
+  /// Whether the picture shown was drawn for itself, not only exposed anew.
+  bool drawnAnew() const { return drawn_anew_; }
+  /// The camera of the picture that is shown; that of the viewer may be ahead.
+  const Camera& shownCamera() const { return shown_camera_; }
+  /// Once the picture is up to date: draws it again in bands, with `samples` along a pixel's side, so that a
+  /// software renderer smooths edges without holding the window up. To the end of a band or to `deadline`.
+  void sharpen(int samples, double deadline);
   /// Whether nothing is left to sharpen.
-  bool sharp() const { return !drawn_ || next_band_ >= kBands; }
+  bool sharp() const { return !drawn_ || making_ || next_band_ >= kBands; }
   /// Copies the picture to the bound draw framebuffer, its lower left at (x, y).
   void copyTo(int x, int y) const;
 
@@ -58,26 +76,46 @@ class SceneDisplay {
  private:
   static constexpr int kBands = 8;
 
-  struct Drawn {
-    Camera camera;
-    DisplaySettings settings;
-    int width = 0, height = 0, samples = 0;
+  // Shown, or about to be.
+  struct Picture {
+    gl::Texture texture;
+    gl::Framebuffer framebuffer;
+    int width = 0, height = 0;
+  };
+  struct Making {
+    Wanted wanted;
+    std::size_t piece = 0;  // the first that is not drawn
+    int row = 0;            // the first that is not exposed
   };
 
-  void allocate(int width, int height);
+  bool stale(const Wanted& wanted) const;
+  bool sampled(const Wanted& wanted) const;
+  void begin(const Wanted& wanted);
+  double extended(double deadline);
+  bool drawSamples(double deadline);
+  void expose();
+  bool showRows(double deadline);
+  bool drawPieces(const LinearTarget& target, const Wanted& wanted, const FrameWindow& window,
+                  std::size_t& piece, double deadline);
+  void allocate(Picture& picture, int width, int height);
   double nextExposure(double metered, double seconds);
 
   gl::Context& context_;
   SceneView view_;
   std::shared_ptr<const Snapshot> snapshot_;
   std::optional<CameraSearch> framing_;
-  gl::Texture picture_;
-  gl::Framebuffer framebuffer_;
-  int width_ = 0, height_ = 0;
-  std::optional<Drawn> drawn_;
+  Picture shown_, next_;
+  std::optional<Making> making_;
+  LinearTarget samples_;
+  std::optional<Wanted> sampled_, drawn_;  // what samples_ and shown_ hold of the present snapshot
+  std::optional<double> metered_;          // of samples_
+  Camera shown_camera_;
+  bool drawn_anew_ = false;
+  Pace pieces_, rows_;
   LinearTarget band_;
   int next_band_ = 0;
-  double exposure_ = 1;
+  std::size_t band_piece_ = 0;
+  double exposure_ = 1, glide_seconds_ = 0;
   bool gliding_ = false, snap_ = true;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <utility>
 
 #include "base/clock.h"
 #include "exit_codes.h"
@@ -18,9 +19,10 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kFrameSeconds = 1.0 / 60;
 constexpr double kSnapshotSeconds = 1.0 / 30;
 // New light is drawn so seldom that the solver keeps most of a machine whose CPU draws.
-constexpr double kSoftwareShare = 4;       // times the cost of a frame
-constexpr double kRestSeconds = 0.2;       // without motion, before the picture is sharpened
-constexpr double kLargestSharpened = 0.1;  // cost of a frame [s]: beyond, every band would take too long
+constexpr double kSoftwareShare = 4;  // times the cost of a frame
+constexpr double kRestSeconds = 0.2;  // without motion, before the picture is sharpened
+// In software a frame spends this long on the scene and then answers, whole picture or not.
+constexpr double kSceneSeconds = 0.018;
 constexpr double kFramingSeconds = 0.01;
 constexpr double kNoticeSeconds = 4;
 constexpr double kRateWindow = 1;
@@ -250,7 +252,7 @@ double Viewer::nextFrame(double now) const {
   const double soon = last_frame_ + kFrameSeconds;
   if (closing_) return now;
   if (gui_frames_ > 0 || !captures_.empty() || navigator_.moving() || scene_.gliding() || scene_.framing() ||
-      (frame_wanted_ && state_->snapshot))
+      (scene_.drawing() && sceneStands()) || (frame_wanted_ && state_->snapshot))
     return soon;
   if (state_->snapshot != scene_.snapshot()) {
     const double share = renderer().hardware ? 1 : kSoftwareShare;
@@ -262,7 +264,7 @@ double Viewer::nextFrame(double now) const {
 
 bool Viewer::mayBeSharpened(double now) const {
   return idle(state_->phase) && !scene_.empty() && !scene_.sharp() && !scene_.framing() &&
-         !navigator_.moving() && frame_cost_ < kLargestSharpened && now >= last_motion_ + kRestSeconds;
+         !navigator_.moving() && now >= last_motion_ + kRestSeconds;
 }
 
 void Viewer::navigate(double seconds, int scene_width, int scene_height) {
@@ -314,8 +316,21 @@ void Viewer::navigate(double seconds, int scene_width, int scene_height) {
   }
 }
 
+/// A scene without its camera is not shown: the picture of the one before stays.
+bool Viewer::sceneStands() const {
+  return !scene_.empty() && !scene_.framing() && state_->facts && framed_scene_ == state_->facts->scene_path;
+}
+
+double Viewer::deadline() const {
+  return renderer().hardware ? SceneDisplay::kAtOnce : last_frame_ + kSceneSeconds;
+}
+
 void Viewer::takeSnapshot() {
   if (state_->snapshot == scene_.snapshot()) return;
+  // What is half drawn is of one state; the next picture shows the new one.
+  const bool same_mesh =
+      state_->snapshot && scene_.snapshot() && state_->snapshot->mesh == scene_.snapshot()->mesh;
+  if (same_mesh && scene_.drawing()) return;
   try {
     scene_.setSnapshot(state_->snapshot);
   } catch (const Error& error) {  // too large for the driver: the picture before stays
@@ -337,12 +352,11 @@ void Viewer::draw(GLuint framebuffer, int width, int height) {
   ImGui::Render();
 
   drew_scene_ = false;
-  // A scene without its camera is not shown: the picture of the one before stays.
-  if (!scene_.empty() && !scene_.framing() && framed_scene_ == state_->facts->scene_path) {
+  if (sceneStands()) {
     const bool hardware = renderer().hardware;
-    drew_scene_ =
-        scene_.draw(navigator_.camera(), ui_.settings, scene_width, height, hardware ? 2 : 1, seconds);
-    if (!drew_scene_ && mayBeSharpened(now)) scene_.sharpen(hardware ? 3 : 2);
+    drew_scene_ = scene_.draw({navigator_.camera(), ui_.settings, scene_width, height, hardware ? 2 : 1},
+                              seconds, deadline());
+    if (!drew_scene_ && mayBeSharpened(now)) scene_.sharpen(hardware ? 3 : 2, deadline());
   }
   paint(framebuffer, width, height, true);
   // ImGui shows a new window one frame late.
@@ -357,7 +371,10 @@ void Viewer::draw(GLuint framebuffer, int width, int height) {
 void Viewer::presented() {
   last_frame_end_ = wallSeconds();
   if (!drew_scene_) return;
-  const double cost = last_frame_end_ - last_frame_;
+  picture_cost_ += last_frame_end_ - last_frame_;
+  if (scene_.drawing()) return;
+  const double cost = std::exchange(picture_cost_, 0);
+  if (!scene_.drawnAnew()) return;
   frame_cost_ = frame_cost_ == 0 ? cost : 0.8 * frame_cost_ + 0.2 * cost;
   // What would not be shown need not be made.
   const double share = renderer().hardware ? 1 : kSoftwareShare;

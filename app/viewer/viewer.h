@@ -90,6 +90,9 @@ class Viewer {
   const gl::ContextInfo& renderer() const { return setup_.display->info(); }
   const std::vector<std::filesystem::path>& bundledScenes() const { return setup_.bundled; }
   const Camera& camera() const { return navigator_.camera(); }
+  /// Of the scene as it is shown, which a slow renderer draws over several frames.
+  const Camera& shownCamera() const { return scene_.shownCamera(); }
+  bool drawingScene() const { return scene_.drawing(); }
   double scale() const { return scale_; }
   double exposure() const { return scene_.exposure(); }
   Rates rates() const;
@@ -142,6 +145,8 @@ class Viewer {
   void navigate(double seconds, int scene_width, int scene_height);
   bool mayBeSharpened(double now) const;
   void takeSnapshot();
+  bool sceneStands() const;
+  double deadline() const;
   void paint(GLuint framebuffer, int width, int height, bool gui);
   void capture(const Capture& wanted, int width, int height, int scene_width);
   std::filesystem::path newPictureName() const;
@@ -162,7 +167,8 @@ class Viewer {
   // Frames.
   int gui_frames_ = kFramesAfterInput;
   double last_frame_ = 0, last_frame_end_ = 0, last_motion_ = 0;
-  double frame_cost_ = 0;  // of a frame that drew the scene [s]
+  double frame_cost_ = 0;    // of the frames of a picture of the scene [s]
+  double picture_cost_ = 0;  // of the one being drawn, so far
   bool drew_scene_ = false;
 
   // The scene shown.

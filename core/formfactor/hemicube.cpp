@@ -45,8 +45,6 @@ constexpr std::uint32_t kResolution = 64;
 constexpr std::uint32_t kEmitterFactor = 4;
 constexpr std::uint32_t kTracedEmitterFactor = 2;  // a ray costs more than a drawn pixel
 constexpr std::uint32_t kFinestEmitterResolution = 1024;
-// Where OpenGL runs in software, this many triangles are drawn slower than rays are traced.
-constexpr std::size_t kManyTriangles = 5000;
 
 // What the pixel loop needs of a surface, together in memory.
 struct SurfaceLookup {
@@ -133,11 +131,12 @@ class Hemicube final : public FormFactorMethod {
   }
 
   // OpenGL draws, but where a software rasteriser would have to chew through thousands of triangles a
-  // picture: its cost grows with all of them (36 ms at 210,000), a ray's with their logarithm (1 to 3 ms).
+  // picture: its cost grows with all of them (25 ms at 210,000), a ray's with their logarithm (1 ms).
   void chooseView(const FormFactorSetup& setup) {
     HemicubeDrawing drawing = setup.hemicube_drawing;
-    if (drawing == HemicubeDrawing::kAuto) {
-      const bool many = mesh_.triangles.size() > kManyTriangles;
+    if (drawing == HemicubeDrawing::kAuto || drawing == HemicubeDrawing::kClassic) {
+      const bool many = mesh_.triangles.size() >
+                        (drawing == HemicubeDrawing::kAuto ? kDrawnTrianglesAuto : kDrawnTrianglesClassic);
       drawing = many && !setup.gl().info().hardware ? HemicubeDrawing::kRays : HemicubeDrawing::kOpenGl;
     }
     if (drawing == HemicubeDrawing::kRays) {

@@ -99,6 +99,7 @@ void bindTexture(const gl::Functions& fn, const gl::Program& program, const char
 SceneView::SceneView(gl::Context& context)
     : context_(context),
       display_program_(context, {"display.vert", "display.frag"}),
+      by_pixel_program_(context, {"display_by_pixel.vert", "display_by_pixel.frag"}),
       resolve_program_(context, {"frame.vert", "resolve.frag"}),
       vertex_array_(context),
       no_attributes_(context),
@@ -209,43 +210,75 @@ const LinearTarget& SceneView::target(LinearTarget& kept, int width, int height)
   return kept;
 }
 
+std::size_t SceneView::pieceCount(const ViewOptions& options, bool with_edges) {
+  if (!mesh_) return 0;
+  const bool edges = with_edges && displayMode(options.display).edges;
+  if (edges) uploadEdges();
+  return static_cast<std::size_t>(triangle_index_count_) / 3 +
+         (edges ? static_cast<std::size_t>(edge_index_count_) / 2 : 0);
+}
+
 void SceneView::drawLinear(const Camera& camera, double aspect, const FrameWindow& window,
                            const ViewOptions& options, bool with_edges) {
+  drawPieces(camera, aspect, window, options, {0, pieceCount(options, with_edges)});
+}
+
+void SceneView::useDisplay(const gl::Program& program, const glm::mat4& matrix, const Camera& camera,
+                           const ViewOptions& options) const {
   const gl::Functions& fn = context_.functions();
   const DisplayMode& mode = displayMode(options.display);
-  setPassState(fn, true);
-  const GLfloat nothing[4] = {0, 0, 0, kBackgroundPixel};
-  const DepthSetup depth(fn);
-  fn.ClearBufferfv(GL_COLOR, 0, nothing);
-  fn.ClearBufferfv(GL_DEPTH, 0, &depth.farthest);
-  if (!mesh_ || triangle_index_count_ == 0) return;
-
-  const gl::Program& program = display_program_;
   program.use();
-  const glm::mat4 matrix = viewProjection(camera, aspect, bounds_, window, depth.range);
   const glm::vec3 eye(camera.eye);
   fn.UniformMatrix4fv(program.uniform("view_projection"), 1, GL_FALSE, glm::value_ptr(matrix));
   fn.Uniform3fv(program.uniform("eye"), 1, glm::value_ptr(eye));
   fn.Uniform1f(program.uniform("ambient_weight"), options.ambient && options.indirect ? 1.0f : 0.0f);
   fn.Uniform1i(program.uniform("quantity"), static_cast<int>(mode.quantity));
   fn.Uniform1i(program.uniform("per_element"), mode.per_element);
-  fn.Uniform1i(program.uniform("edges"), 0);
   bindTexture(fn, program, "sides", 0, GL_TEXTURE_BUFFER, sides_texture_.id());
   bindTexture(fn, program, "triangle_elements", 1, GL_TEXTURE_BUFFER, triangle_elements_texture_.id());
   bindTexture(fn, program, "element_irradiance", 2, GL_TEXTURE_BUFFER,
               (options.indirect ? element_irradiance_texture_ : element_direct_texture_).id());
+}
+
+void SceneView::drawPieces(const Camera& camera, double aspect, const FrameWindow& window,
+                           const ViewOptions& options, Pieces pieces) {
+  const gl::Functions& fn = context_.functions();
+  const DisplayMode& mode = displayMode(options.display);
+  setPassState(fn, true);
+  const DepthSetup depth(fn);
+  if (pieces.first == 0) {
+    const GLfloat nothing[4] = {0, 0, 0, kBackgroundPixel};
+    fn.ClearBufferfv(GL_COLOR, 0, nothing);
+    fn.ClearBufferfv(GL_DEPTH, 0, &depth.farthest);
+  }
+  if (!mesh_ || pieces.count == 0) return;
+
+  const glm::mat4 matrix = viewProjection(camera, aspect, bounds_, window, depth.range);
   fn.BindVertexArray(vertex_array_.id());
   // The light that is shown, all or direct, is a matter of which buffer is read.
   attribute(fn, 3, options.indirect ? irradiance_ : direct_, sizeof(glm::vec3), 0);
   fn.BindBuffer(GL_ARRAY_BUFFER, 0);
-  fn.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, triangles_.id());
-  fn.DrawElements(GL_TRIANGLES, triangle_index_count_, GL_UNSIGNED_INT, nullptr);
-  if (mode.edges && with_edges) {
-    uploadEdges();
-    fn.Uniform1i(program.uniform("edges"), 1);
+  const auto draw = [&](GLenum kind, const gl::Buffer& indices, std::size_t corners, std::size_t first,
+                        std::size_t end) {
+    fn.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.id());
+    fn.DrawElements(kind, static_cast<GLsizei>(corners * (end - first)), GL_UNSIGNED_INT,
+                    reinterpret_cast<const void*>(corners * first * sizeof(std::uint32_t)));
+  };
+  const std::size_t triangles = static_cast<std::size_t>(triangle_index_count_) / 3;
+  const std::size_t end = pieces.first + pieces.count;
+  if (pieces.first < triangles) {
+    const bool by_pixel = mode.per_element || mode.quantity == Quantity::kUnshot;
+    const gl::Program& program = by_pixel ? by_pixel_program_ : display_program_;
+    useDisplay(program, matrix, camera, options);
+    fn.Uniform1i(program.uniform("edges"), 0);
+    fn.Uniform1i(program.uniform("first_triangle"), static_cast<GLint>(pieces.first));
+    draw(GL_TRIANGLES, triangles_, 3, pieces.first, std::min(end, triangles));
+  }
+  if (end > triangles) {
+    useDisplay(by_pixel_program_, matrix, camera, options);
+    fn.Uniform1i(by_pixel_program_.uniform("edges"), 1);
     fn.Enable(GL_CLIP_DISTANCE0);
-    fn.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, edges_.id());
-    fn.DrawElements(GL_LINES, edge_index_count_, GL_UNSIGNED_INT, nullptr);
+    draw(GL_LINES, edges_, 2, std::max(pieces.first, triangles) - triangles, end - triangles);
     fn.Disable(GL_CLIP_DISTANCE0);
   }
   fn.BindVertexArray(0);
@@ -263,7 +296,7 @@ double SceneView::exposureFor(const Camera& camera, double aspect, const ViewOpt
 }
 
 void SceneView::resolve(const LinearTarget& samples, double automatic_exposure, const ViewOptions& options,
-                        const Viewport& viewport) {
+                        const Viewport& viewport, int first_row) {
   const gl::Functions& fn = context_.functions();
   const DisplayMode& mode = displayMode(options.display);
   const double scale = automatic_exposure * std::exp2(std::clamp(options.exposure_ev, -200.0, 200.0));
@@ -273,7 +306,7 @@ void SceneView::resolve(const LinearTarget& samples, double automatic_exposure, 
   program.use();
   bindTexture(fn, program, "samples", 0, GL_TEXTURE_2D, samples.texture());
   fn.Uniform1i(program.uniform("factor"), options.supersampling);
-  fn.Uniform2i(program.uniform("origin"), viewport.x, viewport.y);
+  fn.Uniform2i(program.uniform("origin"), viewport.x, viewport.y - first_row);
   fn.Uniform1f(program.uniform("exposure"), finiteValue(scale));
   fn.Uniform1i(program.uniform("tone_mapped"), mode.tone_mapped);
   fn.Uniform3f(program.uniform("background"), kBackground, kBackground, kBackground);
@@ -285,38 +318,30 @@ void SceneView::resolve(const LinearTarget& samples, double automatic_exposure, 
   fn.BindVertexArray(0);
 }
 
-double SceneView::meterSamples() {
+double SceneView::meter(const LinearTarget& samples, const ViewOptions& options) {
+  if (!displayMode(options.display).tone_mapped) return 1;
   const gl::Functions& fn = context_.functions();
-  const double aspect = static_cast<double>(samples_.width()) / samples_.height();
+  const double aspect = static_cast<double>(samples.width()) / samples.height();
   const double height = std::clamp(std::sqrt(kMeteredPixels / aspect), 1.0, double{kMeteredPixels});
   const int width = std::max(1, static_cast<int>(std::lround(kMeteredPixels / height)));
   const LinearTarget& small = target(small_, width, static_cast<int>(height));
-  samples_.bind();  // for reading too
+  samples.bind();  // for reading too
   small.bindForDrawing();
-  fn.BlitFramebuffer(0, 0, samples_.width(), samples_.height(), 0, 0, small.width(), small.height(),
+  fn.BlitFramebuffer(0, 0, samples.width(), samples.height(), 0, 0, small.width(), small.height(),
                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
   return automaticExposure(small.read());
 }
 
-double SceneView::drawSamples(const Camera& camera, const ViewOptions& options, int width, int height) {
-  const StateGuard guard(context_.functions());
-  const LinearTarget& samples =
-      target(samples_, width * options.supersampling, height * options.supersampling);
-  samples.bind();
-  drawLinear(camera, static_cast<double>(width) / height, {}, options);
-  return displayMode(options.display).tone_mapped && !options.automatic_exposure ? meterSamples() : 1;
-}
-
-void SceneView::showSamples(double automatic_exposure, const ViewOptions& options, const Viewport& viewport) {
-  const StateGuard guard(context_.functions());
-  resolve(samples_, automatic_exposure, options, viewport);
-}
-
 double SceneView::draw(const Camera& camera, const ViewOptions& options, const Viewport& viewport) {
   if (viewport.width <= 0 || viewport.height <= 0) return options.automatic_exposure.value_or(1);
-  const double metered = drawSamples(camera, options, viewport.width, viewport.height);
-  const double exposure = options.automatic_exposure.value_or(metered);
-  showSamples(exposure, options, viewport);
+  const StateGuard guard(context_.functions());
+  const LinearTarget& samples =
+      target(samples_, viewport.width * options.supersampling, viewport.height * options.supersampling);
+  samples.bind();
+  drawLinear(camera, static_cast<double>(viewport.width) / viewport.height, {}, options);
+  const double exposure = options.automatic_exposure ? *options.automatic_exposure : meter(samples, options);
+  context_.functions().BindFramebuffer(GL_FRAMEBUFFER, guard.drawFramebuffer());
+  resolve(samples, exposure, options, viewport);
   return exposure;
 }
 

@@ -36,6 +36,11 @@ struct Viewport {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
+/// Some of what a picture is drawn from: its triangles, in their order, then its edges.
+struct Pieces {
+  std::size_t first = 0, count = 0;
+};
+
 /// GPU copies of a mesh and of one state of its solve. All calls on the thread where the context is current.
 /// State that is changed goes back to OpenGL's defaults; the framebuffer and viewport stay.
 class SceneView {
@@ -51,15 +56,7 @@ class SceneView {
   /// the factor from linear values to about 1 for white, without exposure_ev.
   double draw(const Camera& camera, const ViewOptions& options, const Viewport& viewport);
 
-  // The halves of draw(), for those who choose the exposure in between.
-
-  /// Draws `width` x `height` pixels of samples and returns their automatic exposure (1 for modes that are
-  /// not tone-mapped).
-  double drawSamples(const Camera& camera, const ViewOptions& options, int width, int height);
-  /// Shows what drawSamples() drew, with the same options, in `viewport` of the bound framebuffer.
-  void showSamples(double automatic_exposure, const ViewOptions& options, const Viewport& viewport);
-
-  // The two passes by themselves, for pictures in tiles.
+  // The two passes by themselves, for pictures in tiles or over several frames.
 
   /// Automatic exposure of the picture that `camera` takes, from a small copy of it; 1 for modes that are not
   /// tone-mapped.
@@ -67,22 +64,31 @@ class SceneView {
   /// Clears the bound linear target and draws a part of the picture, over all of its viewport.
   void drawLinear(const Camera& camera, double aspect, const FrameWindow& window, const ViewOptions& options,
                   bool with_edges = true);
-  /// Shows `samples` (options.supersampling along a pixel's side) in `viewport` of the bound framebuffer.
+  /// How many pieces the picture has.
+  std::size_t pieceCount(const ViewOptions& options, bool with_edges = true);
+  /// The same for some of its pieces; the first one clears.
+  void drawPieces(const Camera& camera, double aspect, const FrameWindow& window, const ViewOptions& options,
+                  Pieces pieces);
+  /// Automatic exposure of `samples`, which become bound; 1 for modes that are not tone-mapped.
+  double meter(const LinearTarget& samples, const ViewOptions& options);
+  /// Shows `samples` (options.supersampling along a pixel's side), from their pixel row `first_row` on, in
+  /// `viewport` of the bound framebuffer.
   void resolve(const LinearTarget& samples, double automatic_exposure, const ViewOptions& options,
-               const Viewport& viewport);
+               const Viewport& viewport, int first_row = 0);
 
  private:
   void uploadMesh(const Mesh& mesh);
   void uploadDirect(const Snapshot& snapshot);
   void uploadEdges();
-  double meterSamples();
+  void useDisplay(const gl::Program& program, const glm::mat4& matrix, const Camera& camera,
+                  const ViewOptions& options) const;
   const LinearTarget& target(LinearTarget& kept, int width, int height);
 
   gl::Context& context_;
   std::shared_ptr<const Mesh> mesh_;
   std::shared_ptr<const std::vector<glm::vec3>> direct_field_, element_direct_field_;  // as uploaded
   Bounds bounds_;
-  gl::Program display_program_, resolve_program_;
+  gl::Program display_program_, by_pixel_program_, resolve_program_;
   gl::VertexArray vertex_array_, no_attributes_;
   gl::Buffer vertices_, irradiance_, direct_, ambient_, unshot_;
   gl::Buffer triangles_, edges_;

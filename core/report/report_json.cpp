@@ -60,6 +60,15 @@ Json jsonOf(const EnergyBalance& energy) {
 /// Where there is no bound: null.
 Json numberOrNull(double value) { return value < kNoBound ? Json(value) : Json(nullptr); }
 
+Json valueOf(const ErrorEstimate& estimate) {
+  return estimate.places > 0 ? Json(estimate.value) : Json(nullptr);
+}
+
+/// 95 %.
+Json intervalOf(const ErrorEstimate& estimate) {
+  return estimate.places > 0 ? Json({estimate.low, estimate.high}) : Json(nullptr);
+}
+
 Json jsonOf(const SolverBounds& bounds) {
   return {{"lower", numberOrNull(bounds.lower)},
           {"upper", numberOrNull(bounds.upper)},
@@ -115,8 +124,11 @@ std::string reportJson(const RunRecord& record) {
                   {{"solver_lower", numberOrNull(record.measures.bounds.lower)},
                    {"solver_upper", numberOrNull(record.measures.bounds.upper)},
                    {"solver_total_upper", numberOrNull(record.measures.bounds.total_upper)},
-                   {"form_factor", nullptr},
-                   {"discretisation", nullptr}}},
+                   {"form_factor", valueOf(record.estimates.form_factor)},
+                   {"form_factor_interval", intervalOf(record.estimates.form_factor)},
+                   {"discretisation", valueOf(record.estimates.discretisation)},
+                   {"discretisation_interval", intervalOf(record.estimates.discretisation)},
+                   {"places", record.estimates.both.places}}},
                  {"energy", jsonOf(record.energy)},
                  {"peak_memory_bytes", record.peak_memory_bytes},
                  {"kept_bytes", record.kept_bytes},

@@ -18,6 +18,7 @@ RunRecord recordOf(const Solve& solve) {
   record.counts = {mesh.surfaces.size(), mesh.patch_count,      mesh.element_count, mesh.vertices.size(),
                    record.measures.rows, record.measures.shots, solve.drawn()};
   record.seconds = solve.seconds();
+  record.estimates = solve.estimates();
   record.energy = solve.energy();
   record.peak_memory_bytes = peakMemoryBytes();
   record.kept_bytes = solve.keptBytes();

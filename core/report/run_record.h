@@ -42,6 +42,7 @@ struct RunRecord {
   Counts counts;
   PhaseSeconds seconds;
   Measures measures;
+  ErrorEstimates estimates;
   EnergyBalance energy;
   std::size_t peak_memory_bytes = 0;
   std::size_t kept_bytes = 0;

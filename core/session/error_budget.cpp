@@ -22,8 +22,14 @@ constexpr double kNear = 4;
 
 }  // namespace
 
-ErrorBudget::ErrorBudget(const Transport& transport, const RadiosityState& state, std::size_t matrix_bytes)
-    : matrix_(transport.receivers(), transport.patchArea(), matrix_bytes), bounds_(matrix_, state) {}
+ErrorBudget::ErrorBudget(const Mesh& mesh, const Transport& transport, const RadiosityState& state,
+                         std::size_t matrix_bytes, std::uint64_t seed)
+    : mesh_(mesh),
+      transport_(transport),
+      state_(state),
+      seed_(seed),
+      matrix_(transport.receivers(), transport.patchArea(), matrix_bytes),
+      bounds_(matrix_, state) {}
 
 void ErrorBudget::columnComputed(std::uint32_t q, const Column& column) {
   matrix_.set(q, column);
@@ -68,6 +74,19 @@ const SolverBounds& ErrorBudget::sharpen() {
   now_ = bounds_.sharpened(2 * kProducts);
   seconds_ += wallSeconds() - began;
   return now_;
+}
+
+const ErrorEstimates& ErrorBudget::estimate(std::size_t more_places) {
+  const double began = wallSeconds();
+  if (!residuals_) residuals_.emplace(mesh_, transport_.receivers(), seed_);
+  residuals_->add(more_places);
+  estimates_ = residuals_->estimate(state_, matrix_);
+  seconds_ += wallSeconds() - began;
+  return estimates_;
+}
+
+std::vector<double> ErrorBudget::patchResiduals() const {
+  return residuals_ && residuals_->places() > 0 ? residuals_->patchResiduals(state_) : std::vector<double>();
 }
 
 }  // namespace unshot

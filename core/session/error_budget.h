@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "formfactor/transport.h"
+#include "session/residuals.h"
 #include "solver/bounds.h"
 #include "solver/patch_matrix.h"
 #include "solver/state.h"
@@ -13,7 +16,8 @@ namespace unshot {
 class ErrorBudget {
  public:
   /// All outlive the budget. `matrix_bytes`: what the matrix among patches may take.
-  ErrorBudget(const Transport& transport, const RadiosityState& state, std::size_t matrix_bytes);
+  ErrorBudget(const Mesh& mesh, const Transport& transport, const RadiosityState& state,
+              std::size_t matrix_bytes, std::uint64_t seed);
 
   /// To be called with each column of the transport, new or better.
   void columnComputed(std::uint32_t q, const Column& column);
@@ -24,13 +28,24 @@ class ErrorBudget {
   /// The bounds as sharp as they get, whatever it takes (a few sweeps).
   const SolverBounds& sharpen();
   const ErrorBounds& bounds() const { return bounds_; }
+  /// Estimates of what form factors and mesh leave wrong, from so many more places than before.
+  const ErrorEstimates& estimate(std::size_t more_places);
+  const ErrorEstimates& estimates() const { return estimates_; }
+  /// See Residuals::patchResiduals; empty before the first estimate.
+  std::vector<double> patchResiduals() const;
   double seconds() const { return seconds_; }  ///< wall time that it took so far
   std::size_t bytes() const { return matrix_.bytes(); }
 
  private:
+  const Mesh& mesh_;
+  const Transport& transport_;
+  const RadiosityState& state_;
+  std::uint64_t seed_;
   PatchMatrix matrix_;
   ErrorBounds bounds_;
   SolverBounds now_;
+  std::optional<Residuals> residuals_;
+  ErrorEstimates estimates_;
   double credit_ = 0;  // operations that the solver's work allows
   std::uint64_t shots_ = 0;
   std::size_t refreshed_count_ = 0;

@@ -102,7 +102,7 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl, const CancelT
                                            perPatch(*mesh, &Side::reflectance));
   cancel.check();
   ambient = std::make_unique<AmbientTerm>(mesh->patch_count, mesh->patch_air);
-  budget = std::make_unique<ErrorBudget>(*transport, *state, options.kept_bytes / 4);
+  budget = std::make_unique<ErrorBudget>(*mesh, *transport, *state, options.kept_bytes / 4, options.seed);
   transport->watchColumns([this](std::uint32_t q, const Column& column) {
     ambient->sees(q, column, transport->receivers());
     budget->columnComputed(q, column);
@@ -124,6 +124,7 @@ void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl, const C
   setup.cancel = cancel;
   setup.seed = options.seed;
   setup.hemicube_resolution = options.hemicube_resolution;
+  setup.hemicube_drawing = options.hemicube_drawing;
   setup.gl = [&gl]() -> gl::Context& {
     gl::Context& context = gl();
     context.makeCurrent();
@@ -204,7 +205,7 @@ void Solve::Impl::checkLimits() {
 // per patch where the last was for the total).
 bool Solve::Impl::reached() {
   if (measures.solverBound() > options.error || measures.drafts > 0) return false;
-  measures.bounds = budget->sharpen();
+  measures.bounds = SolverBounds::tighter(measures.bounds, budget->sharpen());
   return measures.solverBound() <= options.error;
 }
 
@@ -337,6 +338,17 @@ void Solve::setError(double error) {
   s.checkLimits();
   s.record();
 }
+
+const ErrorEstimates& Solve::estimate(std::size_t more_places) {
+  Impl& s = *impl_;
+  const double cpu_began = cpuSeconds();
+  rest();
+  s.budget->estimate(more_places);
+  s.seconds.cpu_solve += cpuSeconds() - cpu_began;
+  return s.budget->estimates();
+}
+
+const ErrorEstimates& Solve::estimates() const { return impl_->budget->estimates(); }
 
 void Solve::rest() { impl_->resting = true; }
 

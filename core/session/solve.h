@@ -10,7 +10,9 @@
 
 #include "base/cancel.h"
 #include "base/error.h"
+#include "formfactor/methods.h"
 #include "scene/scene.h"
+#include "session/residuals.h"
 #include "session/snapshot.h"
 
 namespace unshot {
@@ -35,7 +37,8 @@ struct SolveOptions {
   /// while the solution stays up to date: the first whole picture in a fraction of the time, the end a little
   /// later.
   bool draft_first = false;
-  std::uint32_t hemicube_resolution = 0;          ///< pixels along the top face; 0: chosen
+  std::uint32_t hemicube_resolution = 0;  ///< pixels along the top face; 0: chosen
+  HemicubeDrawing hemicube_drawing = HemicubeDrawing::kAuto;
   std::size_t kept_bytes = std::size_t{1} << 30;  ///< memory for kept columns of K [bytes]
   /// Where given: stands between the solve and its form-factor method, such as to keep columns for another
   /// solve of the same scene and options.
@@ -93,6 +96,10 @@ class Solve {
   /// Another SolveOptions::error: a running solve (or one at a limit) that has reached it converges at once,
   /// a converged one that has not runs again. Throws a usage Error unless 0 < error < 1.
   void setError(double error);
+  /// Estimates what form factors and mesh leave wrong in the present state, from so many more places than
+  /// before; the solve's clocks rest, but its cpu_solve counts it.
+  const ErrorEstimates& estimate(std::size_t more_places);
+  const ErrorEstimates& estimates() const;
   /// Stops the clocks of `measures`, as the last step left them, until the next step.
   void rest();
 

@@ -210,7 +210,8 @@ bool ErrorBounds::refresh() {
 
 ErrorBounds::Field ErrorBounds::reflectedNow() const {
   Field out(state_.patchCount());
-  for (std::size_t q = 0; q < out.size(); ++q) out[q] = state_.shot()[q] + state_.unshot()[q] - state_.emission()[q];
+  for (std::size_t q = 0; q < out.size(); ++q)
+    out[q] = state_.shot()[q] + state_.unshot()[q] - state_.emission()[q];
   return out;
 }
 

@@ -12,9 +12,11 @@
 // expected number of patches that light leaving a patch meets, itself included. Powers of M on |U| sharpen
 // it.
 //
-// Errors count on patches without emission of their own (on all, where all emit), weighted by area, over channels.
+// Errors count on patches without emission of their own (on all, where all emit), weighted by area, over
+// channels.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -29,6 +31,11 @@ struct SolverBounds {
   double total_upper = kNoBound;  ///< sum A |e| / sum A (B* - E) is at most this
   double upper = kNoBound;        ///< RMS e / RMS (B* - E) is at most this
   double lower = 0;               ///< and at least this; above 0 only where U >= 0
+
+  /// Of two bounds of the same state.
+  static SolverBounds tighter(const SolverBounds& a, const SolverBounds& b) {
+    return {std::min(a.total_upper, b.total_upper), std::min(a.upper, b.upper), std::max(a.lower, b.lower)};
+  }
 };
 
 class ErrorBounds {

@@ -1,10 +1,12 @@
 // Timings: unshot_bench [--seconds T] [--quick] [--only TABLE]
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <string>
 
+#include "bench/drawing_table.h"
 #include "bench/frame_table.h"
 #include "bench/picture_table.h"
 #include "bench/reference_table.h"
@@ -23,11 +25,19 @@ void printPictures(bool quick) {
   }
 }
 
-void printScenes(bool quick, double seconds) {
+std::vector<std::filesystem::path> sceneFolders(bool quick) {
   std::vector<std::filesystem::path> folders{UNSHOT_SOURCE_DIR "/assets"};
   const char* scenes = std::getenv("UNSHOT_SCENES");
   if (scenes && !quick) folders.emplace_back(scenes);
-  unshot::bench::printSceneTable(folders, seconds);
+  return folders;
+}
+
+void printDrawings(bool quick) {
+  if (quick) {
+    unshot::bench::printDrawingTable(sceneFolders(quick), 3, 100);
+  } else {
+    unshot::bench::printDrawingTable(sceneFolders(quick), 100, SIZE_MAX);
+  }
 }
 
 void printFrames(bool quick) {
@@ -60,7 +70,7 @@ int main(int argc, char** argv) {
           "usage: unshot_bench [--seconds T] [--quick] [--only TABLE]\n"
           "  --seconds T  time for each scene (default 10)\n"
           "  --quick      a short run that only shows that everything works\n"
-          "  --only T     one table: pictures, scenes, frames or reference\n"
+          "  --only T     one table: pictures, drawings, scenes, frames or reference\n"
           "UNSHOT_SCENES names a folder of further scenes, with reference values in its folder truth.\n");
       return 2;
     }
@@ -68,7 +78,8 @@ int main(int argc, char** argv) {
   try {
     const auto wanted = [&](const char* table) { return only.empty() || only == table; };
     if (wanted("pictures")) printPictures(quick);
-    if (wanted("scenes")) printScenes(quick, seconds);
+    if (wanted("drawings")) printDrawings(quick);
+    if (wanted("scenes")) unshot::bench::printSceneTable(sceneFolders(quick), seconds);
     if (wanted("frames")) printFrames(quick);
     if (wanted("reference")) unshot::bench::printReferenceTable(quick ? 8 : 256, quick ? 0.3 : 0.01);
   } catch (const std::exception& error) {

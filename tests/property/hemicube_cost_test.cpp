@@ -39,5 +39,21 @@ TEST(HemicubeCost, IsTheSameAtAThousandTenThousandAndAHundredThousandElements) {
   EXPECT_LT(ratio, 1.5);
 }
 
+TEST(ClassicHemicubes, AreDrawnUpToTwentyThousandTriangles) {
+  const std::unique_ptr<gl::Context> context = gl::createContext("osmesa");
+  const Mesh mesh = buildMesh(readObj(UNSHOT_SOURCE_DIR "/assets/library.obj"), {2'000, {}, false});
+  ASSERT_GT(mesh.triangles.size(), kDrawnTrianglesAuto);
+  ASSERT_LT(mesh.triangles.size(), kDrawnTrianglesClassic);
+  FormFactorSetup setup;
+  setup.mesh = &mesh;
+  setup.gl = [&]() -> gl::Context& {
+    context->makeCurrent();
+    return *context;
+  };
+  EXPECT_NE(makeHemicube(setup)->note(), "") << "the faster one traces";
+  setup.hemicube_drawing = HemicubeDrawing::kClassic;
+  EXPECT_EQ(makeHemicube(setup)->note(), "");
+}
+
 }  // namespace
 }  // namespace unshot

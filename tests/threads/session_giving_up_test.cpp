@@ -14,6 +14,13 @@ namespace {
 
 using namespace testing_support;
 
+// Sanitizers make loading fifty times slower.
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+constexpr int kSquares = 80;
+#else
+constexpr int kSquares = 250;
+#endif
+
 /// A wavy ground of 2 n^2 triangles under a lamp.
 std::string landscape(int n) {
   std::string text = "mtllib land.mtl\nusemtl ground\n";
@@ -51,7 +58,7 @@ class SessionGivingUp : public testing::Test {
   static double soon(double load_seconds) { return 0.25 * load_seconds + 0.3; }
 
   TempFolder folder_;
-  const std::string scene_ = folder_.write("land.obj", landscape(250));
+  const std::string scene_ = folder_.write("land.obj", landscape(kSquares));
   const SolveOptions options_ = endless(5000);
 };
 

@@ -1,0 +1,140 @@
+#include "session/gather.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "base/random.h"
+#include "formfactor/polygon_factor.h"
+#include "mesh/grid.h"
+
+namespace unshot {
+namespace {
+
+// Rays of a look: a grid of strata, this many along each side.
+constexpr int kStrata = 12;
+// As many emitting triangles are all looked at; of more, this many are drawn at random.
+constexpr std::size_t kMostEmitters = 16;
+// Shadow rays to an emitter, a grid: where there are few emitters, and where there are many.
+constexpr int kShadowStrata = 5, kFewShadowStrata = 2;
+constexpr std::size_t kFewEmitters = 4;
+
+struct Draws {
+  std::uint64_t state;
+  double next() { return unitInterval(state = mixBits(state)); }
+};
+
+// Two unit vectors across n (Duff et al. 2017).
+void basis(const glm::dvec3& n, glm::dvec3& a, glm::dvec3& b) {
+  const double sign = std::copysign(1.0, n.z), p = -1 / (sign + n.z), q = n.x * n.y * p;
+  a = {1 + sign * n.x * n.x * p, sign * q, -sign * n.x};
+  b = {q, sign + n.y * n.y * p, -n.y};
+}
+
+}  // namespace
+
+Gatherer::Gatherer(const Mesh& mesh) : mesh_(mesh), rays_(mesh) {
+  for (std::uint32_t s = 0; s < mesh.sides.size(); ++s) {
+    const glm::dvec3& e = mesh.sides[s].emission;
+    if (e == glm::dvec3(0.0)) continue;
+    const Range& range = mesh.surfaces[mesh.sides[s].surface].triangles;
+    for (std::uint32_t t = range.first; t < range.end(); ++t)
+      emitters_.push_back({t, s, (e.x + e.y + e.z) * rays_.rays().triangle(t).area});
+  }
+}
+
+std::uint32_t Gatherer::elementOf(std::uint32_t surface, std::uint32_t side,
+                                  const glm::dvec3& position) const {
+  const Surface& s = mesh_.surfaces[surface];
+  const std::uint32_t local = elementAt(mesh_, s, s.chart(position));
+  return local == kNone ? kNone : mesh_.sides[side].first_element + local;
+}
+
+Gather Gatherer::look(const glm::dvec3& position, const glm::dvec3& normal, std::uint64_t stream) const {
+  Gather out;
+  out.rays.reserve(kStrata * kStrata);
+  glm::dvec3 a, b;
+  basis(normal, a, b);
+  const glm::dvec3 eye = rays_.rays().lifted(position, normal);
+  Draws draws{mixBits(stream)};
+  for (int i = 0; i < kStrata; ++i) {
+    for (int j = 0; j < kStrata; ++j) {
+      const double r = std::sqrt((i + draws.next()) / kStrata);
+      const double phi = 2 * std::numbers::pi * (j + draws.next()) / kStrata;
+      const glm::dvec3 direction =
+          r * std::cos(phi) * a + r * std::sin(phi) * b + std::sqrt(std::max(0.0, 1 - r * r)) * normal;
+      const auto hit = rays_.intersect(eye, direction);
+      out.rays.push_back(hit && hit->side != kNone ? elementOf(hit->surface, hit->side, hit->at.position)
+                                                   : kNone);
+    }
+  }
+  lookAtLights(position, normal, mixBits(stream ^ 0x5bd1e995u), out);
+  return out;
+}
+
+void Gatherer::lookAtLights(const glm::dvec3& position, const glm::dvec3& normal, std::uint64_t stream,
+                            Gather& out) const {
+  if (emitters_.size() <= kMostEmitters) {
+    const int strata = emitters_.size() <= kFewEmitters ? kShadowStrata : kFewShadowStrata;
+    for (std::size_t k = 0; k < emitters_.size(); ++k)
+      lookAtLight(emitters_[k], position, normal, strata, 1, mixBits(stream + k), out);
+    return;
+  }
+  // By power over distance squared, in strata of the sum.
+  std::vector<double> sum(emitters_.size());
+  double total = 0;
+  for (std::size_t k = 0; k < emitters_.size(); ++k) {
+    const SceneRays::Triangle& t = rays_.rays().triangle(emitters_[k].triangle);
+    const glm::dvec3 to = (t.corners[0] + t.corners[1] + t.corners[2]) / 3.0 - position;
+    sum[k] = total += emitters_[k].power / (glm::dot(to, to) + t.area);
+  }
+  Draws draws{stream};
+  for (std::size_t i = 0; i < kMostEmitters; ++i) {
+    const double at = (static_cast<double>(i) + draws.next()) / kMostEmitters * total;
+    const auto k = std::min<std::size_t>(
+        static_cast<std::size_t>(std::upper_bound(sum.begin(), sum.end(), at) - sum.begin()), sum.size() - 1);
+    const double probability = (sum[k] - (k > 0 ? sum[k - 1] : 0)) / total;
+    lookAtLight(emitters_[k], position, normal, kFewShadowStrata, 1 / (kMostEmitters * probability),
+                mixBits(stream + i), out);
+  }
+}
+
+void Gatherer::lookAtLight(const Emitter& emitter, const glm::dvec3& position, const glm::dvec3& normal,
+                           int strata, double weight, std::uint64_t stream, Gather& out) const {
+  const Side& side = mesh_.sides[emitter.side];
+  const SceneRays::Triangle& t = rays_.rays().triangle(emitter.triangle);
+  if (glm::dot(position - t.corners[0], side.normal) <= rays_.rays().lift()) return;
+  const bool reversed = glm::dot(t.normal, side.normal) < 0;
+  const glm::dvec3 ring[3] = {t.corners[0], t.corners[reversed ? 2 : 1], t.corners[reversed ? 1 : 2]};
+  std::vector<glm::dvec3> scratch;
+  const double factor = weight * std::max(pointToPolygonFactor(position, normal, ring, scratch), 0.0);
+  if (factor <= 0) return;
+  const glm::dvec3 eye = rays_.rays().lifted(position, normal);
+  struct Sample {
+    std::uint32_t element;
+    double kernel;
+  };
+  std::vector<Sample> visible;
+  double kernels = 0;
+  Draws draws{stream};
+  for (int i = 0; i < strata; ++i) {
+    for (int j = 0; j < strata; ++j) {
+      const double u = (i + draws.next()) / strata, v = (j + draws.next()) / strata;
+      const glm::dvec3 at = t.point(u, v), to = at - position;
+      const double square = glm::dot(to, to), from_eye = glm::dot(to, normal),
+                   from_light = -glm::dot(to, side.normal);
+      if (from_eye <= 0 || from_light <= 0) continue;  // below the horizon: not hidden, not there
+      const double kernel = from_eye * from_light / (square * square);
+      kernels += kernel;
+      if (rays_.rays().occluded(eye, rays_.rays().lifted(at, side.normal))) continue;
+      visible.push_back({elementOf(side.surface, emitter.side, at), kernel});
+    }
+  }
+  for (const Sample& s : visible) {
+    if (s.element == kNone) continue;
+    out.lights.push_back({mesh_.element_patch[s.element], static_cast<float>(factor * s.kernel / kernels)});
+  }
+}
+
+}  // namespace unshot

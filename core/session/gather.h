@@ -1,0 +1,50 @@
+// Irradiance at a point by rays through the true geometry, kept as weights on patches and elements, so that
+// it can be worked out for every state of a solve.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/mesh_rays.h"
+
+namespace unshot {
+
+/// One unbiased look from a point. H = sum of weight * (what the patch has shot of its emission) over
+/// `lights`
+/// + mean of what the elements in `rays` send besides.
+struct Gather {
+  struct Light {
+    std::uint32_t patch;
+    float weight;
+  };
+  std::vector<Light> lights;
+  std::vector<std::uint32_t> rays;  ///< elements met; kNone where a ray meets nothing or an unlit side
+};
+
+/// Looks around in a scene. Emitters are seen by their exact polygon factor times the share of it that shadow
+/// rays find visible, all else by cosine-distributed rays in strata.
+class Gatherer {
+ public:
+  explicit Gatherer(const Mesh& mesh);
+
+  /// From `position` on the side that `normal` points away from; `stream` numbers independent looks.
+  Gather look(const glm::dvec3& position, const glm::dvec3& normal, std::uint64_t stream) const;
+
+ private:
+  struct Emitter {
+    std::uint32_t triangle;  // in Mesh::triangles
+    std::uint32_t side;
+    double power;  // channels summed
+  };
+  void lookAtLights(const glm::dvec3& position, const glm::dvec3& normal, std::uint64_t stream,
+                    Gather& out) const;
+  void lookAtLight(const Emitter& emitter, const glm::dvec3& position, const glm::dvec3& normal, int samples,
+                   double weight, std::uint64_t stream, Gather& out) const;
+  std::uint32_t elementOf(std::uint32_t surface, std::uint32_t side, const glm::dvec3& position) const;
+
+  const Mesh& mesh_;
+  MeshRays rays_;
+  std::vector<Emitter> emitters_;
+};
+
+}  // namespace unshot

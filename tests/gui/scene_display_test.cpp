@@ -1,0 +1,135 @@
+// The picture of the scene in the viewer, drawn at once or over several frames.
+#include "viewer/scene_display.h"
+
+#include <gtest/gtest.h>
+
+#include "base/clock.h"
+#include "gl/context.h"
+#include "mesh/build.h"
+#include "render/display_modes.h"
+#include "scene/obj_reader.h"
+
+namespace unshot {
+namespace {
+
+constexpr int kWidth = 200, kHeight = 180;
+
+class SceneDisplays : public testing::Test {
+ protected:
+  SceneDisplays() : context_(gl::createContext("osmesa")) {
+    context_->makeCurrent();
+    const Scene scene = readObj(UNSHOT_SOURCE_DIR "/assets/cornell_box.obj");
+    snapshot_ = state(std::make_shared<Mesh>(buildMesh(scene, {20'000, {}, false})), 1);
+    wanted_ = {{{278, 273, -800}, {278, 273, 0}, {0, 1, 0}, 39}, {}, kWidth, kHeight, 1};
+    wanted_.camera.eye -= snapshot_->mesh->frame_origin;
+    wanted_.camera.at -= snapshot_->mesh->frame_origin;
+    wanted_.settings.view.display = "radiosity";
+  }
+
+  static std::shared_ptr<const Snapshot> state(std::shared_ptr<const Mesh> mesh, float light) {
+    auto snapshot = std::make_shared<Snapshot>();
+    snapshot->mesh = std::move(mesh);
+    const std::size_t vertices = snapshot->mesh->vertices.size();
+    for (std::size_t v = 0; v < vertices; ++v) {
+      const float value = light * static_cast<float>(v % 97) / 97;
+      snapshot->irradiance.emplace_back(value);
+      snapshot->unshot.emplace_back(0.3f - value);
+      snapshot->ambient.emplace_back(0.1f);
+    }
+    for (std::uint32_t e = 0; e < snapshot->mesh->element_count; ++e)
+      snapshot->element_irradiance.emplace_back(light * static_cast<float>(e % 89) / 89);
+    return snapshot;
+  }
+
+  std::vector<std::uint8_t> pixels(const SceneDisplay& display) {
+    const gl::Functions& fn = context_->functions();
+    const gl::Texture texture(*context_);
+    const gl::Framebuffer framebuffer(*context_);
+    fn.BindTexture(GL_TEXTURE_2D, texture.id());
+    fn.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, kWidth, kHeight, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+    fn.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+    fn.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.id(), 0);
+    fn.Clear(GL_COLOR_BUFFER_BIT);
+    display.copyTo(0, 0);
+    std::vector<std::uint8_t> out(4 * std::size_t{kWidth} * kHeight);
+    fn.ReadPixels(0, 0, kWidth, kHeight, GL_RGBA, GL_UNSIGNED_BYTE, out.data());
+    gl::checkErrors(fn, "a picture in slices");
+    return out;
+  }
+  /// As little in each call as there can be; returns how many calls it took.
+  int drawSlowly(SceneDisplay& display) {
+    int calls = 0;
+    do {
+      EXPECT_TRUE(display.draw(wanted_, -1, wallSeconds()));
+      ++calls;
+    } while (display.drawing() && calls < 1000);
+    return calls;
+  }
+
+  std::unique_ptr<gl::Context> context_;
+  std::shared_ptr<const Snapshot> snapshot_;
+  SceneDisplay::Wanted wanted_;
+};
+
+TEST_F(SceneDisplays, InSlicesThePictureIsTheSame) {
+  for (const DisplayMode& mode : displayModes()) {
+    SCOPED_TRACE(mode.info.key);
+    wanted_.settings.view.display = mode.info.key;
+    SceneDisplay at_once(*context_), slowly(*context_);
+    at_once.setSnapshot(snapshot_);
+    slowly.setSnapshot(snapshot_);
+    EXPECT_TRUE(at_once.draw(wanted_, -1, SceneDisplay::kAtOnce));
+    EXPECT_FALSE(at_once.drawing());
+    EXPECT_GE(drawSlowly(slowly), 4);
+    EXPECT_EQ(pixels(slowly), pixels(at_once));
+    EXPECT_EQ(slowly.exposure(), at_once.exposure());
+    EXPECT_FALSE(slowly.draw(wanted_, -1, wallSeconds())) << "drawn again for nothing";
+  }
+}
+
+TEST_F(SceneDisplays, ThePictureBeforeAndItsCameraStayUntilTheNextIsWhole) {
+  SceneDisplay display(*context_);
+  display.setSnapshot(snapshot_);
+  drawSlowly(display);
+  const std::vector<std::uint8_t> before = pixels(display);
+  const glm::dvec3 eye = wanted_.camera.eye;
+  wanted_.camera.eye.x += 50;
+  while (display.draw(wanted_, -1, wallSeconds()) && display.drawing()) {
+    EXPECT_EQ(pixels(display), before);
+    EXPECT_EQ(display.shownCamera().eye, eye);
+  }
+  EXPECT_NE(pixels(display), before);
+  EXPECT_EQ(display.shownCamera().eye, wanted_.camera.eye);
+}
+
+TEST_F(SceneDisplays, AtOnceIsOfTheNewestStateWhateverWasBegun) {
+  SceneDisplay display(*context_), fresh(*context_);
+  display.setSnapshot(snapshot_);
+  drawSlowly(display);
+  wanted_.camera.eye.x += 50;
+  display.draw(wanted_, -1, wallSeconds());
+  ASSERT_TRUE(display.drawing());
+  const auto newer = state(snapshot_->mesh, 3);
+  wanted_.camera.eye.x += 50;
+  for (SceneDisplay* d : {&display, &fresh}) {
+    d->setSnapshot(newer);
+    d->draw(wanted_, -1, SceneDisplay::kAtOnce);
+    EXPECT_FALSE(d->drawing());
+  }
+  EXPECT_EQ(pixels(display), pixels(fresh));
+}
+
+TEST_F(SceneDisplays, AnotherExposureDrawsNothingAnew) {
+  SceneDisplay display(*context_);
+  display.setSnapshot(snapshot_);
+  drawSlowly(display);
+  EXPECT_TRUE(display.drawnAnew());
+  const std::vector<std::uint8_t> before = pixels(display);
+  wanted_.settings.view.exposure_ev = 1;
+  EXPECT_TRUE(display.draw(wanted_, -1, SceneDisplay::kAtOnce));
+  EXPECT_FALSE(display.drawnAnew());
+  EXPECT_NE(pixels(display), before);
+}
+
+}  // namespace
+}  // namespace unshot
