@@ -22,6 +22,8 @@ namespace {
 
 // Shares of a scene's time: a run besides form factors, and all pictures.
 constexpr double kRunShare = 0.1, kPictureShare = 0.4;
+// Total errors of a percent are to be judged by it.
+constexpr double kReferenceError = 0.003;
 // Work done by then, for the progress: reference, exact solution, first runs, repeats, pictures.
 constexpr double kDone[] = {0, 0.1, 0.4, 0.65, 0.9, 1};
 
@@ -87,6 +89,7 @@ class SceneRun {
     ReferenceOptions options;
     options.seed = request_.options.seed;
     options.emit_front_only = request_.options.emit_front_only;
+    options.relative_error = kReferenceError;
     options.max_seconds = request_.reference_seconds;
     options.progress = watch(0, 0, 1, "tracing the reference");
     reference_ = cachedReference(scene_, options, request_.out);
@@ -112,7 +115,7 @@ class SceneRun {
   TotalError totalError(const Solve& solve) const {
     const ReferenceError error =
         errorAgainst(reference_.points, answerProbes(solve.snapshot(), probes_, false));
-    return {error.nrmse_raw, whyNotJudgeable(error)};
+    return {error.nrmse, whyNotJudgeable(error)};
   }
 
   void firstRuns() {

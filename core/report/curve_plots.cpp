@@ -40,9 +40,10 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
+/// An error of exactly 0 is drawn as next to none, so that a curve shows its drop to it on a log axis.
 std::string series(std::string_view mode, const Axis& x, const char* y) {
   return "'curves.csv' using (strcol('mode') eq '" + std::string(mode) + "' ? column('" + x.column +
-         "') : NaN):(100*column('" + y + "'))";
+         "') : NaN):(100*(column('" + y + "')+1e-12))";
 }
 
 std::string styleOf(std::string_view mode, const char* with, double width, const char* dash) {

@@ -16,6 +16,8 @@ namespace {
 const double kFurther = std::pow(10.0, 1.0 / 24);
 // Total errors are measured as often as this.
 const double kFurtherTotal = std::pow(10.0, 1.0 / 8);
+// Below this solver error the total one changes no more.
+constexpr double kLeastSolver = 1e-3;
 // A dense factorisation of up to so many operations is quick (some 20 s).
 constexpr double kQuickFactorisation = 1e11;
 constexpr double kExactError = 1e-10;
@@ -134,7 +136,7 @@ class PointPicker {
       const bool jumped = passed_ && curve_.points.back().step < passed_->step && now.solver &&
                           passed_->solver->nrmse > kFurther * now.solver->nrmse;
       if (jumped) push(*passed_);
-      if (ended || curve_.points.empty() || further(cpu, total_at_, kFurtherTotal)) measureTotal(solve, now);
+      if (ended || curve_.points.empty() || isFurtherTotal(now)) measureTotal(solve, now);
       push(now);
     }
     passed_ = std::move(now);
@@ -171,9 +173,16 @@ class PointPicker {
            further(now.solver->nrmse, last.solver->nrmse, kFurther);
   }
 
+  bool isFurtherTotal(const CurvePoint& now) const {
+    if (further(now.cpu_seconds, total_at_.cpu_seconds, kFurtherTotal)) return true;
+    return now.solver && total_at_.solver &&
+           further(total_at_.solver->nrmse, now.solver->nrmse, kFurtherTotal) &&
+           now.solver->nrmse > kLeastSolver;
+  }
+
   void measureTotal(const Solve& solve, CurvePoint& point) {
     if (!total_error_) return;
-    total_at_ = point.cpu_seconds;
+    total_at_ = point;
     const TotalError error = total_error_(solve);
     point.total_error = error.nrmse;
     curve_.why_not_judgeable = error.why_not_judgeable;
@@ -189,7 +198,7 @@ class PointPicker {
   std::span<const glm::dvec3> exact_;
   const std::function<TotalError(const Solve&)>& total_error_;
   std::optional<CurvePoint> passed_;
-  double total_at_ = 0;
+  CurvePoint total_at_;
 };
 
 Error memoryFailure(const std::string& mode) {
