@@ -8,17 +8,18 @@ namespace unshot {
 namespace {
 
 // Share of the solver's work that goes into bounds beyond the passes over patches that each step has anyway.
-constexpr double kShare = 0.06;
+constexpr double kShare = 0.08;
 // An operation is one entry of the matrix times a colour, some 5 ns. A column of K takes this many to compute
 // (1 to 2 ms), and a shot along one at hand that many for each entry of its patch column (it has as many
 // receivers on a patch).
-constexpr double kColumnWork = 300'000, kShotWork = 10;
-constexpr int kProducts = 4;
+constexpr double kColumnWork = 300'000, kShotWork = 15;
+// Products of a sharpening on the way, and at the end.
+constexpr int kProducts = 1, kLastProducts = 8;
+// What a refresh costs in products.
+constexpr double kRefreshProducts = 8;
 constexpr int kMostRefreshes = 50;
 // Weights are lowered again when this share more of the columns is known.
 constexpr double kNews = 0.02;
-// Where a bound is below this many times the error asked for, a sharper one may end the solve.
-constexpr double kNear = 4;
 
 }  // namespace
 
@@ -37,26 +38,27 @@ void ErrorBudget::columnComputed(std::uint32_t q, const Column& column) {
   credit_ += kShare * kColumnWork;
 }
 
-const SolverBounds& ErrorBudget::update(std::uint64_t shots, double error) {
+const SolverBounds& ErrorBudget::update(std::uint64_t shots) {
   const double began = wallSeconds();
   const auto entries = static_cast<double>(matrix_.entryCount());
   const double columns = std::max(1.0, static_cast<double>(matrix_.knownCount()));
   credit_ += kShare * kShotWork * static_cast<double>(shots - shots_) * entries / columns;
   shots_ = shots;
   now_ = bounds_.at();
-  const double cost = (kProducts + 3) * entries;
+  double cost = (kProducts + 0.2) * entries;
   if (credit_ < cost) return now_;
   const bool known_more = static_cast<double>(matrix_.knownCount()) >=
                           static_cast<double>(refreshed_count_) + kNews * static_cast<double>(matrix_.size());
   const bool rested = refreshed_version_ != matrix_.version() && matrix_.version() == last_version_;
   last_version_ = matrix_.version();
-  const double bound = now_.upper < kNoBound ? now_.upper : now_.total_upper;
   if (known_more || rested || (gains_ && refreshed_version_ == matrix_.version())) {
+    cost = kRefreshProducts * entries;
+    if (credit_ < cost) return now_;
     gains_ = bounds_.refresh();
     refreshed_count_ = matrix_.knownCount();
     refreshed_version_ = matrix_.version();
     now_ = bounds_.at();
-  } else if ((bound > error && std::min(bound, now_.total_upper) < kNear * error) || credit_ > 4 * cost) {
+  } else if (bounds_.comparable()) {
     now_ = bounds_.sharpened(kProducts);
   } else {
     return now_;
@@ -71,7 +73,7 @@ const SolverBounds& ErrorBudget::sharpen() {
   for (int k = 0; k < kMostRefreshes && bounds_.refresh(); ++k) {
   }
   gains_ = false;
-  now_ = bounds_.sharpened(2 * kProducts);
+  now_ = bounds_.sharpened(kLastProducts);
   seconds_ += wallSeconds() - began;
   return now_;
 }

@@ -9,16 +9,12 @@
 #include "session/error_budget.h"
 #include "session/fields.h"
 #include "session/plan.h"
+#include "session/stagnation.h"
 #include "solver/ambient.h"
 #include "solver/modes.h"
 
 namespace unshot {
 namespace {
-
-// A mode that takes this many passes over all patches without losing this share of the unshot power will not
-// arrive.
-constexpr std::uint64_t kStagnationPasses = 20;
-constexpr double kStagnationShare = 1e-4;
 
 void checkError(double error) {
   if (error > 0 && error < 1) return;
@@ -46,7 +42,8 @@ struct Solve::Impl {
 
   std::unique_ptr<Transport> transport;
   std::unique_ptr<RadiosityState> state;
-  std::unique_ptr<IterationMode> mode;
+  const IterationModeRow* mode_row = nullptr;
+  std::unique_ptr<IterationMode> mode;  // made anew where columns have changed: it may hold products of them
   std::unique_ptr<AmbientTerm> ambient;
   std::unique_ptr<ErrorBudget> budget;
 
@@ -55,12 +52,11 @@ struct Solve::Impl {
   std::optional<Error> failure;
   Measures measures;
   std::vector<HistoryEntry> history;
-  bool resting = false, mode_failed = false;
+  bool resting = false, mode_failed = false, refining = false;
   double measured_wall = 0, measured_cpu = 0;                            // when `measures` were taken
   std::shared_ptr<const std::vector<glm::vec3>> direct, element_direct;  // for emission_shots of the state
   std::uint64_t emission_shots = 0;
-  double watched_fraction = 1;
-  std::uint64_t watched_shots = 0;
+  StagnationWatch stagnation;
 
   Impl(Scene scene_in, SolveOptions options_in)
       : options(std::move(options_in)), scene(std::move(scene_in)) {}
@@ -70,12 +66,10 @@ struct Solve::Impl {
   void chooseMode(const std::string& key);
   void stop(SolveState how, std::string why);
   void fail(ErrorKind kind, std::string why, std::string advice);
-  bool nothingDiesOut() const;
   void wakeClocks();
   void measure();
   bool reached();
   void checkLimits();
-  void watch();
   void checkStagnation();
   void record();
   void refineBrightest();
@@ -148,7 +142,8 @@ void Solve::Impl::chooseMode(const std::string& key) {
   if (!reason.empty()) {
     throw Error(ErrorKind::kEnvironment, "the mode '" + chosen + "' is not for this scene: " + reason);
   }
-  mode = row.make();
+  mode_row = &row;
+  mode.reset();
   mode_key = chosen;
   options.mode = key;
 }
@@ -183,7 +178,7 @@ void Solve::Impl::measure() {
     measures.unshot_fraction = emitted - emitted;  // not a number, rather than a share of infinity
   } else if (emitted > 0) {
     measures.unshot_fraction = state->unshotPower() / emitted;
-    measures.bounds = budget->update(measures.shots, options.error);
+    measures.bounds = budget->update(measures.shots);
   }
   seconds.solve = measures.seconds;
   seconds.cpu_solve = measures.cpu_seconds;
@@ -209,40 +204,18 @@ bool Solve::Impl::reached() {
   return measures.solverBound() <= options.error;
 }
 
-// Whether the light still on its way goes from wall to wall that reflects all of it.
-bool Solve::Impl::nothingDiesOut() const {
-  double left = 0, reflected = 0;
-  for (std::size_t q = 0; q < state->patchCount(); ++q) {
-    for (int c = 0; c < 3; ++c) {
-      const double power = state->area()[q] * std::abs(state->unshot()[q][c]);
-      left += power;
-      if (state->reflectance()[q][c] >= 1) reflected += power;
-    }
-  }
-  return reflected >= (1 - kStagnationShare) * left;
-}
-
-// From here on the unshot power has to fall.
-void Solve::Impl::watch() {
-  watched_fraction = measures.unshot_fraction;
-  watched_shots = measures.shots;
-}
-
 void Solve::Impl::checkStagnation() {
-  if (measures.shots - watched_shots < kStagnationPasses * mesh->patch_count) return;
-  if (measures.unshot_fraction > (1 - kStagnationShare) * watched_fraction) {
-    if (nothingDiesOut()) {
-      fail(ErrorKind::kInput,
-           "no finite solution: the walls that the light reaches reflect all of it (reflectance 1) and let "
-           "none "
-           "out, so it never dies out",
-           "a reflectance (Kd) below 1 for some wall, or --max-shots N for the light of a number of bounces");
-    } else {
-      fail(ErrorKind::kInternal, "stagnation: the unshot power does not fall",
-           "another --mode or --form-factors");
-    }
+  if (!stagnation.found(measures, mesh->patch_count)) return;
+  if (nothingDiesOut(*state)) {
+    fail(ErrorKind::kInput,
+         "no finite solution: the walls that the light reaches reflect all of it (reflectance 1) and let "
+         "none out, so "
+         "it never dies out",
+         "a reflectance (Kd) below 1 for some wall, or --max-shots N for the light of a number of bounces");
+  } else {
+    fail(ErrorKind::kInternal, "stagnation: the unshot power does not fall",
+         "another --mode or --form-factors");
   }
-  watch();
 }
 
 // A curve needs no more points than a plot has pixels: each is a hundredth further than the last.
@@ -256,6 +229,7 @@ void Solve::Impl::record() {
 // The draft whose patch has shot the most power is replaced; columns that are new from now on are none.
 void Solve::Impl::refineBrightest() {
   transport->allowDrafts(false);
+  mode.reset();
   std::uint32_t brightest = kNone;
   double most = -1;
   for (std::uint32_t q = 0; q < state->patchCount(); ++q) {
@@ -272,6 +246,7 @@ void Solve::Impl::refineBrightest() {
 
 // A step of the mode; one that cannot go on ends the solve as failed, with what it has.
 std::optional<std::size_t> Solve::Impl::iterate() {
+  if (!mode) mode = mode_row->make();
   try {
     return mode->step(*state, *transport);
   } catch (const IterationFailure& problem) {
@@ -294,7 +269,8 @@ void Solve::step() {
   s.wakeClocks();
   bool nothing_left = false;
   const std::uint64_t refined = s.measures.refined;
-  if (s.measures.drafts > 0 && s.measures.solverBound() <= s.options.error) {
+  s.refining = s.measures.drafts > 0 && (s.refining || s.measures.solverBound() <= s.options.error);
+  if (s.refining) {
     s.refineBrightest();
   } else if (const auto used = s.iterate()) {
     s.measures.shots += *used;
@@ -303,7 +279,8 @@ void Solve::step() {
     if (!nothing_left) s.refineBrightest();
   }
   s.measure();
-  if (s.measures.refined != refined) s.watch();  // a better column brings unshot light of its own
+  if (s.measures.refined != refined)
+    s.stagnation.restart(s.measures);  // a better column brings unshot light of its own
   if (s.progress_state == SolveState::kRunning) s.checkLimits();
   if (s.progress_state == SolveState::kLimit || nothing_left) s.measures.bounds = s.budget->sharpen();
   if (s.progress_state == SolveState::kRunning && nothing_left)
@@ -320,7 +297,7 @@ void Solve::setMode(const std::string& key) {
     s.stop(SolveState::kRunning, {});
   }
   s.mode_failed = false;
-  s.watch();
+  s.stagnation.restart(s.measures);
 }
 
 void Solve::setError(double error) {
@@ -330,7 +307,7 @@ void Solve::setError(double error) {
   if (s.stopped_by == "no light") return;
   if (s.progress_state == SolveState::kConverged) {
     s.stop(SolveState::kRunning, {});
-    s.watch();
+    s.stagnation.restart(s.measures);
   } else if (s.progress_state == SolveState::kLimit && s.measures.solverBound() <= error) {
     s.stop(SolveState::kRunning, {});
   }
@@ -385,22 +362,11 @@ double Solve::progress() const {
   return std::clamp(reached, 0.0, 0.999);
 }
 
-EnergyBalance Solve::energy() const {
-  const Impl& s = *impl_;
-  EnergyBalance out;
-  const Receivers& receivers = s.transport->receivers();
-  for (std::size_t v = 0; v < receivers.size(); ++v) {
-    const glm::dvec3 absorbed =
-        receivers.area[v] * (1.0 - receivers.reflectance[v]) * s.state->irradiance()[v];
-    out.absorbed += absorbed.x + absorbed.y + absorbed.z;
-  }
-  for (std::size_t q = 0; q < s.state->patchCount(); ++q) {
-    const glm::dvec3 u = s.state->area()[q] * s.state->unshot()[q];
-    out.unshot += u.x + u.y + u.z;
-  }
-  out.emitted = s.state->emittedPower();
-  out.escaped = s.state->escapedPower();
-  out.closure_defect = s.state->defectPower();
+EnergyBalance Solve::energy() const { return energyOf(*impl_->transport, *impl_->state); }
+
+std::vector<glm::dvec3> Solve::patchRadiosity() const {
+  std::vector<glm::dvec3> out = impl_->state->shot();
+  for (std::size_t q = 0; q < out.size(); ++q) out[q] += impl_->state->unshot()[q];
   return out;
 }
 
@@ -420,12 +386,6 @@ std::size_t Solve::workingBytes() const {
   // Per patch E, rho, S, U, E left and A; per receiver H and H_d.
   return state.patchCount() * (5 * sizeof(glm::dvec3) + sizeof(double)) +
          2 * state.irradiance().size() * sizeof(glm::dvec3) + impl_->mode->bytes();
-}
-
-std::vector<glm::dvec3> Solve::patchRadiosity() const {
-  std::vector<glm::dvec3> out = impl_->state->shot();
-  for (std::size_t q = 0; q < out.size(); ++q) out[q] += impl_->state->unshot()[q];
-  return out;
 }
 
 std::uint64_t Solve::drawn() const { return impl_->transport->drawn(); }

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "formfactor/methods.h"
 #include "scene/scene.h"
+#include "session/energy.h"
 #include "session/residuals.h"
 #include "session/snapshot.h"
 
@@ -50,16 +51,6 @@ struct PlanDecision {
   std::string what;
   std::string why;
   std::string saving;
-};
-
-/// Energy of a solve [W], summed over channels: emitted = absorbed + escaped + unshot (+ closure_defect).
-struct EnergyBalance {
-  double emitted = 0;         ///< sum A E
-  double absorbed = 0;        ///< sum A (1 - rho) H
-  double escaped = 0;         ///< shot, and met no surface
-  double unshot = 0;          ///< sum A U
-  double closure_defect = 0;  ///< shot, but lost or gained by approximate form factors
-  double residual() const { return emitted - absorbed - escaped - unshot - closure_defect; }
 };
 
 struct HistoryEntry {
@@ -114,7 +105,8 @@ class Solve {
   double progress() const;
 
   // For reports.
-  const SolveOptions& options() const;  ///< as asked for; `mode` and `error` as set last
+  std::vector<glm::dvec3> patchRadiosity() const;  ///< B = S + U, one per patch [W/m^2]
+  const SolveOptions& options() const;             ///< as asked for; `mode` and `error` as set last
   const Scene& scene() const;
   const Mesh& mesh() const;
   const std::string& modeKey() const;         ///< what `auto` became
@@ -127,8 +119,6 @@ class Solve {
   std::size_t keptBytes() const;  ///< memory held by kept columns
   /// Memory of the state and of what the mode holds beside it [bytes].
   std::size_t workingBytes() const;
-  /// S + U, the radiosity of each patch as far as it is known [W/m^2].
-  std::vector<glm::dvec3> patchRadiosity() const;
   std::uint64_t drawn() const;  ///< hemicubes drawn
   /// The bound that reached the error asked for ("solver_upper", "solver_total_upper"), "nothing unshot",
   /// "max_seconds", "max_shots", "interrupted", "no light", or what failed.

@@ -16,6 +16,8 @@ constexpr int kMostSums = 200;
 constexpr double kRounding = 4 * 6e-8;
 // A weight that falls by less than this share is as good as found.
 constexpr double kGain = 0.01;
+// Above 1, so that an adapted comparison stays positive where U is 0.
+constexpr double kAdaptedMargin = 1.25;
 // Unshot radiosity this far below 0, as a share of the largest, is rounding.
 constexpr double kSignless = 1e-12;
 
@@ -188,6 +190,7 @@ bool ErrorBounds::refresh() {
   if (z_.empty() && complete_) startTotal();
   if (!complete_) v_.clear();
   if (complete_ && compared_version_ != matrix_.version()) startComparison();
+  if (compared_version_ != matrix_.version()) adapted_v_.clear();
   bool gains = false;
   for (int k = 0; k < kProductsAtOnce; ++k) {
     gains = !z_.empty() && lowerTotal();
@@ -237,35 +240,80 @@ double ErrorBounds::totalUpper() const {
   return truth > 0 ? bound / truth : kNoBound;
 }
 
-SolverBounds ErrorBounds::at() const { return sharpened(0); }
-
-SolverBounds ErrorBounds::sharpened(int products) const {
+SolverBounds ErrorBounds::at() const {
   SolverBounds out;
   out.total_upper = totalUpper();
-  if (!comparable()) return out;
+  if (comparable()) out.upper = upperOf(comparison(v_, w_, adapted_v_, adapted_w_));
+  return out;
+}
+
+// By both pairs the smaller of the two, patch by patch; the second may be empty.
+ErrorBounds::Field ErrorBounds::comparison(const Field& v, const Field& w, const Field& v2,
+                                           const Field& w2) const {
+  glm::dvec3 factor(0.0), factor2(0.0);
+  const std::vector<glm::dvec3>& u = state_.unshot();
+  for (std::size_t q = 0; q < v.size(); ++q) {
+    factor = glm::max(factor, glm::abs(u[q]) / w[q]);
+    if (!v2.empty()) factor2 = glm::max(factor2, glm::abs(u[q]) / w2[q]);
+  }
+  Field above(v.size());
+  for (std::size_t q = 0; q < v.size(); ++q) {
+    above[q] = factor * glm::max(v[q] - w[q], glm::dvec3(0.0));
+    if (!v2.empty()) above[q] = glm::min(above[q], factor2 * glm::max(v2[q] - w2[q], glm::dvec3(0.0)));
+  }
+  return above;
+}
+
+double ErrorBounds::upperOf(const Field& above) const {
+  const double now = rmsCounted(reflectedNow()), error = rmsCounted(above);
+  return now > error ? error / (now - error) : kNoBound;
+}
+
+// With signs, so that what cancels in M U counts as cancelled: e = M U + ... + M^k U + (I - M)^-1 M (M^k U).
+SolverBounds ErrorBounds::sharpened(int products) {
+  SolverBounds out = at();
+  if (!comparable() || products < 1) return out;
   const std::size_t n = state_.patchCount();
-  Field rest(n), sum_of_powers(n, glm::dvec3(0.0)), image(n);
+  Field power = state_.unshot(), powers(n, glm::dvec3(0.0)), image(n);
   double low = 0, high = 0;
-  for (std::size_t q = 0; q < n; ++q) {
-    rest[q] = glm::abs(state_.unshot()[q]);
-    low = std::min(low, least(state_.unshot()[q]));
-    high = std::max(high, largest(rest[q]));
+  for (const glm::dvec3& u : power) {
+    low = std::min(low, least(u));
+    high = std::max(high, largest(glm::abs(u)));
   }
   for (int k = 0; k < products; ++k) {
-    multiply(rest, image);
-    std::swap(rest, image);
-    for (std::size_t q = 0; q < n; ++q) sum_of_powers[q] += rest[q];
+    multiply(power, image);
+    std::swap(power, image);
+    for (std::size_t q = 0; q < n; ++q) powers[q] += power[q];
   }
   glm::dvec3 factor(0.0);
-  for (std::size_t q = 0; q < n; ++q) factor = glm::max(factor, rest[q] / w_[q]);
+  for (std::size_t q = 0; q < n; ++q) factor = glm::max(factor, glm::abs(power[q]) / w_[q]);
   Field above(n);
   for (std::size_t q = 0; q < n; ++q) {
-    above[q] = sum_of_powers[q] * (1 + kRounding) + factor * glm::max(v_[q] - w_[q], glm::dvec3(0.0));
+    above[q] = glm::abs(powers[q]) * (1 + kRounding) + factor * glm::max(v_[q] - w_[q], glm::dvec3(0.0));
   }
+  out.upper = std::min(out.upper, upperOf(above));
+  if (low < -kSignless * high) return out;
   const double now = rmsCounted(reflectedNow()), error = rmsCounted(above);
-  if (now > error) out.upper = error / (now - error);
-  if (products > 0 && low >= -kSignless * high && now + error > 0) {
-    out.lower = rmsCounted(sum_of_powers) * (1 - kRounding) / (now + error);
+  if (now + error > 0) out.lower = rmsCounted(powers) * (1 - kRounding) / (now + error);
+  // U >= 0: x = U + M U + ... + M^(k-1) U + factor v is a comparison of U's own shape, (I - M) x = U - M^k U
+  // + factor w, which is U at least; for the steps that follow, until U has another shape.
+  adapted_v_.resize(n);
+  adapted_w_.resize(n);
+  factor *= kAdaptedMargin;
+  for (std::size_t q = 0; q < n; ++q) {
+    const glm::dvec3 u = glm::max(state_.unshot()[q], glm::dvec3(0.0));
+    adapted_v_[q] = u + powers[q] - power[q] + factor * v_[q];
+    adapted_w_[q] = (u - power[q] + factor * w_[q]) - kRounding * adapted_v_[q];
+    for (int c = 0; c < 3; ++c) {
+      if (factor[c] == 0) {  // nothing unshot in this channel
+        adapted_v_[q][c] = v_[q][c];
+        adapted_w_[q][c] = w_[q][c];
+      }
+      if (adapted_w_[q][c] > 0) continue;
+      adapted_v_.clear();
+      adapted_w_.clear();
+      return out;
+    }
   }
   return out;
 }

@@ -51,10 +51,12 @@ class ErrorBounds {
   /// The bounds of the present state; passes over the patches.
   SolverBounds at() const;
   /// Sharper, by `products` products with the matrix.
-  SolverBounds sharpened(int products) const;
+  SolverBounds sharpened(int products);
 
   /// Whether all columns that matter are known, so that there may be a bound per patch.
   bool complete() const { return complete_; }
+  /// Whether there is a bound per patch for the matrix as it is now.
+  bool comparable() const { return !v_.empty() && compared_version_ == matrix_.version(); }
   /// v, one per patch; empty where there is none.
   const std::vector<glm::dvec3>& expectedBounces() const { return v_; }
   /// Lower and upper bound of the spectral radius of M, per channel (Collatz and Wielandt); once complete.
@@ -64,7 +66,6 @@ class ErrorBounds {
  private:
   using Field = std::vector<glm::dvec3>;
 
-  bool comparable() const { return !v_.empty() && compared_version_ == matrix_.version(); }
   bool allColumnsThatMatter() const;
   void multiply(const Field& x, Field& out) const;
   Field reflected(Field x) const;
@@ -76,6 +77,8 @@ class ErrorBounds {
   bool lowerComparison();
   void bracketRadius();
   double totalUpper() const;
+  Field comparison(const Field& v, const Field& w, const Field& v2, const Field& w2) const;
+  double upperOf(const Field& above) const;
   double rmsCounted(const Field& x) const;
   Field reflectedNow() const;
 
@@ -88,6 +91,7 @@ class ErrorBounds {
   std::uint64_t compared_version_ = ~std::uint64_t{0};  // of the matrix that w_ belongs to
   Field z_;                                             // empty: no bound
   Field v_, w_, spectral_;
+  Field adapted_v_, adapted_w_;  // another pair, of the shape of U at the last sharpening
   glm::dvec3 radius_lower_{0.0}, radius_upper_{kNoBound};
 };
 

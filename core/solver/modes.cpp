@@ -48,7 +48,7 @@ std::span<const IterationModeRow> iterationModes() {
        makeChebyshev,
        always},
       {{"conjugate-gradient", "Conjugate gradients",
-        "on pairs made symmetric; needs form factors that are nearly reciprocal"},
+        "on pairs made symmetric; few sweeps whatever the reflectance"},
        makeConjugateGradient,
        always},
       {{"gmres", "Minimal residual (GMRES)",

@@ -3,8 +3,9 @@
 // as negative unshot light.
 //
 // Safeguard: the expectation is a share of the ambient term, 1 at first. Where the unshot power has not
-// fallen over a pass, or has doubled before, the share is halved, and below 1/16 it is 0: that is southwell,
-// which never diverges.
+// fallen over a pass, the share is halved, and below 1/16 it is 0: that is southwell, which never diverges.
+#include <algorithm>
+
 #include "solver/ambient.h"
 #include "solver/brightness.h"
 #include "solver/modes.h"
@@ -13,7 +14,9 @@ namespace unshot {
 namespace {
 
 constexpr double kLeastShare = 1.0 / 16;
-constexpr double kRunaway = 2;
+// A pass has to bring the unshot power down to this share, and no shot may bring it so far above the lowest
+// yet.
+constexpr double kLeastGain = 0.9, kMostRise = 1.5;
 
 class Overshoot final : public IterationMode {
  public:
@@ -44,22 +47,27 @@ class Overshoot final : public IterationMode {
   void start(const RadiosityState& state) {
     ambient_.emplace(state.patchCount());
     shot_.assign(state.patchCount(), 0);
-    watched_ = state.unshotPower();
+    watched_ = lowest_ = state.unshotPower();
   }
 
   void watch(const RadiosityState& state) {
     if (share_ == 0) return;
     const double now = state.unshotPower();
-    // A few patches that shoot to and fro can run away long before a pass is over.
-    if (++since_ < state.patchCount() && now < kRunaway * watched_) return;
-    if (now > 0.9 * watched_) share_ = share_ / 2 < kLeastShare ? 0 : share_ / 2;
+    lowest_ = std::min(lowest_, now);
+    const bool pass_ends = ++since_ >= state.patchCount();
+    const bool fails = now > kMostRise * lowest_ || (pass_ends && now > kLeastGain * watched_);
+    if (fails) {
+      share_ = share_ / 2 < kLeastShare ? 0 : share_ / 2;
+      lowest_ = now;
+    }
+    if (!fails && !pass_ends) return;
     watched_ = now;
     since_ = 0;
   }
 
   std::optional<AmbientTerm> ambient_;
   std::vector<char> shot_;
-  double share_ = 1, watched_ = 0;
+  double share_ = 1, watched_ = 0, lowest_ = 0;
   std::size_t since_ = 0;
 };
 

@@ -1,0 +1,26 @@
+// Finds out when a solve does not get anywhere.
+#pragma once
+
+#include <cstdint>
+
+#include "session/snapshot.h"
+#include "solver/state.h"
+
+namespace unshot {
+
+class StagnationWatch {
+ public:
+  /// From here on the unshot power has to fall.
+  void restart(const Measures& measures);
+  /// Whether it has not fallen over many passes over the patches.
+  bool found(const Measures& measures, std::size_t patches);
+
+ private:
+  double fraction_ = 1;
+  std::uint64_t shots_ = 0;
+};
+
+/// Whether the light still on its way goes from wall to wall that reflects all of it.
+bool nothingDiesOut(const RadiosityState& state);
+
+}  // namespace unshot
