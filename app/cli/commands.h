@@ -8,6 +8,7 @@ namespace unshot {
 /// Each adds its options to `command` and sets command.run.
 void setUpView(Command& command);
 void setUpSolve(Command& command);
+void setUpReport(Command& command);
 void setUpCheck(Command& command);
 void setUpCompare(Command& command);
 void setUpList(Command& command);

@@ -99,6 +99,10 @@ void Command::argument(const std::string& name, std::string& value, const std::s
   app_.add_option(name, value, help)->option_text(" ")->check(fileName())->required(required);
 }
 
+void Command::arguments(const std::string& name, std::vector<std::string>& values, const std::string& help) {
+  app_.add_option(name, values, help)->option_text(" ")->check(fileName())->required();
+}
+
 void Command::addText(const std::string& name, const std::function<void(const std::string&)>& assign,
                       const std::string& placeholder, const std::string& help, const Check& check) {
   app_.add_option_function<std::string>(name, assign, help)

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/choice.h"
 
@@ -73,6 +74,8 @@ class Command {
   void group(const std::string& title) { group_ = title; }
   /// A file name that stands without an option before it.
   void argument(const std::string& name, std::string& value, const std::string& help, bool required = true);
+  /// One or more of them.
+  void arguments(const std::string& name, std::vector<std::string>& values, const std::string& help);
   /// Options with a value, shown as `placeholder` in the help. `check` must refuse what is no number for
   /// numbers.
   void add(const std::string& name, std::string& value, const std::string& placeholder,

@@ -57,12 +57,19 @@ void Progress::phase(const std::string& text) {
 }
 
 void Progress::update(const ProgressFigures& figures) {
+  if (wallSeconds() >= next_) say(figures.done, "solving: ", lineOf(figures));
+}
+
+void Progress::update(double done, const std::string& text) {
+  if (wallSeconds() >= next_) say(done, figureText(std::floor(100 * done)) + " %: ", text);
+}
+
+void Progress::say(double done, const std::string& plain_head, const std::string& text) {
   const double now = wallSeconds();
-  if (now < next_) return;
   if (terminal_) {
-    draw(barOf(figures.done) + lineOf(figures));
+    draw(barOf(done) + text);
   } else {
-    std::cerr << "solving: " << lineOf(figures) << std::endl;
+    std::cerr << plain_head << text << std::endl;
     interval_ = std::min(1.5 * interval_, kLongestInterval);
   }
   next_ = now + interval_;

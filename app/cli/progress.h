@@ -1,4 +1,4 @@
-// Progress of a solve on standard error: a bar on a terminal, plain lines elsewhere.
+// Progress on standard error: a bar on a terminal, plain lines elsewhere.
 #pragma once
 
 #include <cstdint>
@@ -28,11 +28,14 @@ class Progress {
   void phase(const std::string& text);
   /// Cheap enough to be called after every step.
   void update(const ProgressFigures& figures);
+  /// The same for work of another kind: how much of it is done, and what is being done.
+  void update(double done, const std::string& text);
   /// Takes the bar away.
   void finish();
 
  private:
   std::string lineOf(const ProgressFigures& figures) const;
+  void say(double done, const std::string& plain_head, const std::string& text);
   void draw(const std::string& line);
 
   double max_seconds_;

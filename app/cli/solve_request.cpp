@@ -36,7 +36,8 @@ bool SolveRequest::needsPicture() const {
                      [](const Output& o) { return o.exporter->needs != PictureNeed::kNoPicture; });
 }
 
-SolveArguments::SolveArguments(Command& command) : solver_(command, false), outputs_(exporters().size()) {
+SolveArguments::SolveArguments(Command& command)
+    : solver_(command, SolverUse::kSolve), outputs_(exporters().size()) {
   command.argument("SCENE.obj", scene_, "The scene: Wavefront OBJ with MTL");
   addOutputs(command);
   addPicture(command);

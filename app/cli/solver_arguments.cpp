@@ -20,18 +20,21 @@ Check emitText() {
 
 }  // namespace
 
-SolverArguments::SolverArguments(Command& command, bool with_window) {
-  addSolver(command, with_window);
+SolverArguments::SolverArguments(Command& command, SolverUse use) {
+  addSolver(command, use);
   addMesh(command);
-  addLimits(command);
+  if (use != SolverUse::kReport) addLimits(command);
 }
 
-void SolverArguments::addSolver(Command& command, bool with_window) {
+void SolverArguments::addSolver(Command& command, SolverUse use) {
+  const bool with_window = use == SolverUse::kView;
   command.group("How to solve");
   const auto modes = iterationModes();
   const auto methods = formFactorMethods();
-  command.add("--mode", options_.mode, "M", "Iteration: " + keysOf(modes, true) + " (default auto)",
-              keyOf(modes, true));
+  if (use != SolverUse::kReport) {
+    command.add("--mode", options_.mode, "M", "Iteration: " + keysOf(modes, true) + " (default auto)",
+                keyOf(modes, true));
+  }
   command.add("--form-factors", options_.form_factors, "F",
               "Form factors: " + keysOf(methods, true) + " (default auto)", keyOf(methods, true));
   command.add(

@@ -1,4 +1,4 @@
-// The options that `unshot solve` and `unshot view` share: how to solve, on which mesh, when to stop.
+// The options that `unshot solve`, `view` and `report` share: how to solve, on which mesh, when to stop.
 #pragma once
 
 #include <filesystem>
@@ -10,10 +10,16 @@
 
 namespace unshot {
 
+/// Who asks.
+enum class SolverUse {
+  kSolve,
+  kView,   ///< --gl may be glfw too
+  kReport  ///< several modes: neither --mode nor the limits of one solve
+};
+
 class SolverArguments {
  public:
-  /// `with_window`: --gl may be glfw too.
-  SolverArguments(Command& command, bool with_window);
+  SolverArguments(Command& command, SolverUse use);
 
   SolveOptions options() const;
   /// Key of a provider, "glfw" or "auto".
@@ -22,7 +28,7 @@ class SolverArguments {
   std::filesystem::path shaderDir() const { return shader_dir_; }
 
  private:
-  void addSolver(Command& command, bool with_window);
+  void addSolver(Command& command, SolverUse use);
   void addMesh(Command& command);
   void addLimits(Command& command);
 

@@ -17,7 +17,7 @@ namespace {
 
 class ViewArguments {
  public:
-  explicit ViewArguments(Command& command) : solver_(command, true) {
+  explicit ViewArguments(Command& command) : solver_(command, SolverUse::kView) {
     command.argument("SCENE.obj", scene_,
                      "The scene: Wavefront OBJ with MTL (default: the bundled Cornell box)", false);
     command.group("The window");

@@ -41,12 +41,18 @@ void requireDecoded(const StbPixels<Value>& pixels, const std::filesystem::path&
 
 }  // namespace
 
-void writePng(const std::filesystem::path& path, const Image8& image) {
+std::string pngBytes(const Image8& image) {
   std::string bytes;
   if (!stbi_write_png_to_func(appendTo, &bytes, image.width, image.height, 3, image.rgb.data(),
                               3 * image.width)) {
-    failEncoding(path);
+    return {};
   }
+  return bytes;
+}
+
+void writePng(const std::filesystem::path& path, const Image8& image) {
+  const std::string bytes = pngBytes(image);
+  if (bytes.empty()) failEncoding(path);
   writeWholeFile(path, bytes);
 }
 

@@ -2,10 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "base/image.h"
 
 namespace unshot {
+
+/// The bytes of a PNG; empty where it cannot be encoded.
+std::string pngBytes(const Image8& image);
 
 /// Writes a PNG. Throws Error (kEnvironment).
 void writePng(const std::filesystem::path& path, const Image8& image);

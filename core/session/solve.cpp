@@ -129,6 +129,7 @@ void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl, const C
   std::unique_ptr<FormFactorMethod> method = row.make(setup);
   if (!method->note().empty())
     diagnostics.push_back({Severity::kNote, "form-factor-note", method->note(), {}, {}});
+  if (options.wrap_form_factors) method = options.wrap_form_factors(std::move(method));
   cancel.check();
   Receivers receivers = makeReceivers(*mesh, method->receiverKind(), cancel);
   transport = std::make_unique<Transport>(std::move(method), std::move(receivers), mesh->patch_area,
@@ -397,6 +398,14 @@ const Diagnostics& Solve::diagnostics() const { return impl_->diagnostics; }
 const std::vector<HistoryEntry>& Solve::history() const { return impl_->history; }
 const PhaseSeconds& Solve::seconds() const { return impl_->seconds; }
 std::size_t Solve::keptBytes() const { return impl_->transport->keptBytes(); }
+
+std::size_t Solve::workingBytes() const {
+  const RadiosityState& state = *impl_->state;
+  // Per patch E, rho, S, U, E left and A; per receiver H and H_d.
+  return state.patchCount() * (5 * sizeof(glm::dvec3) + sizeof(double)) +
+         2 * state.irradiance().size() * sizeof(glm::dvec3) + impl_->mode->bytes();
+}
+
 std::uint64_t Solve::drawn() const { return impl_->transport->drawn(); }
 const std::string& Solve::stoppedBy() const { return impl_->stopped_by; }
 const std::optional<Error>& Solve::failure() const { return impl_->failure; }

@@ -21,6 +21,7 @@ namespace unshot {
 namespace gl {
 class Context;
 }
+class FormFactorMethod;
 
 /// What the user asks of a solve. Keys are those of the tables (`unshot list`).
 struct SolveOptions {
@@ -40,6 +41,9 @@ struct SolveOptions {
   std::uint32_t hemicube_resolution = 0;  ///< pixels along the top face; 0: chosen
   HemicubeDrawing hemicube_drawing = HemicubeDrawing::kAuto;
   std::size_t kept_bytes = std::size_t{1} << 30;  ///< memory for kept columns of K [bytes]
+  /// Where given: stands between the solve and its form-factor method, such as to keep columns for another
+  /// solve of the same scene and options.
+  std::function<std::unique_ptr<FormFactorMethod>(std::unique_ptr<FormFactorMethod>)> wrap_form_factors;
 };
 
 /// Something the solve left out or chose by looking at the scene, with its reason (law 7).
@@ -115,7 +119,9 @@ class Solve {
   EnergyBalance energy() const;
   const PhaseSeconds& seconds() const;
   std::size_t keptBytes() const;  ///< memory held by kept columns
-  std::uint64_t drawn() const;    ///< hemicubes drawn
+  /// Memory of the state and of what the mode holds beside it [bytes].
+  std::size_t workingBytes() const;
+  std::uint64_t drawn() const;  ///< hemicubes drawn
   /// The bound that reached the error asked for ("solver_upper", "solver_total_upper"), "nothing unshot",
   /// "max_seconds", "max_shots", "interrupted", "no light", or what failed.
   const std::string& stoppedBy() const;

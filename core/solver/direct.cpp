@@ -63,6 +63,12 @@ class Direct final : public IterationMode {
     return {};
   }
 
+  std::size_t bytes() const override {
+    std::size_t values = 0;
+    for (const Matrix& matrix : matrix_) values += static_cast<std::size_t>(matrix.size());
+    return values * sizeof(double);
+  }
+
  private:
   enum class Phase { kFirstPass, kAssembly, kFactorisation, kSolution };
 

@@ -20,6 +20,8 @@ class Gmres final : public IterationMode {
     return used;
   }
 
+  std::size_t bytes() const override { return minimal_.bytes(); }
+
  private:
   FirstPass first_pass_;
   TransportProduct product_;

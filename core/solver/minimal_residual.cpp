@@ -25,10 +25,14 @@ void MinimalResidual::apply(RadiosityState& state, const Transport& transport, L
   }
   fresh.square = weighted(weight_, fresh.image, fresh.image);
   state.add(quotient(weighted(weight_, state.unshot(), fresh.image), fresh.square), fresh.flow);
-  const std::size_t bytes = (fresh.flow.irradiance.size() + 2 * fresh.image.size()) * sizeof(glm::dvec3);
-  const std::size_t most = std::clamp(kDirectionBytes / bytes, std::min(kLeastDirections, most_), most_);
+  const std::size_t most =
+      std::clamp(kDirectionBytes / fresh.bytes(), std::min(kLeastDirections, most_), most_);
   if (directions_.size() >= most) directions_.pop_front();
   directions_.push_back(std::move(fresh));
+}
+
+std::size_t MinimalResidual::bytes() const {
+  return directions_.empty() ? 0 : directions_.size() * directions_.front().bytes();
 }
 
 }  // namespace unshot

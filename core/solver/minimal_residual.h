@@ -19,12 +19,16 @@ class MinimalResidual {
   /// is symmetric and positive, so that d = U never stands still. The oldest directions go when there is no
   /// room.
   void apply(RadiosityState& state, const Transport& transport, LightFlow flow);
+  std::size_t bytes() const;  ///< memory of the directions
 
  private:
   struct Direction {
     LightFlow flow;
     std::vector<glm::dvec3> image;  // (I - M) d
     glm::dvec3 square;              // of the image
+    std::size_t bytes() const {
+      return (flow.irradiance.size() + flow.shot.size() + image.size()) * sizeof(glm::dvec3);
+    }
   };
   std::size_t most_;
   std::vector<glm::dvec3> weight_;

@@ -30,6 +30,8 @@ class IterationMode {
   virtual std::optional<std::size_t> step(RadiosityState& state, Transport& transport) = 0;
   /// What it is doing besides shooting, such as "factorising"; empty: it shoots.
   virtual std::string activity() const { return {}; }
+  /// Memory that it holds beside the state, where that is more than some vectors [bytes].
+  virtual std::size_t bytes() const { return 0; }
 };
 
 /// What a mode's availability depends on.

@@ -1,7 +1,6 @@
 // Solving for real: what is written, how it ends, and that nothing is lost on the way.
 #include <gmock/gmock.h>
 #include <sys/stat.h>
-#include <time.h>
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -18,6 +17,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
+using testing_support::eventually;
 using testing_support::ProgramResult;
 using testing_support::ProgramRun;
 using testing_support::runProgram;
@@ -115,17 +115,6 @@ TEST(Solve, AnOutputThatFailsLateDoesNotCostTheOthers) {
     EXPECT_THAT(result.out, HasSubstr("written       " + report));
   }
   EXPECT_THAT(folder.read("p.json"), StartsWith("{"));
-}
-
-/// Waits until `ready`, looking again every 5 ms; false after two minutes.
-template <class Ready>
-bool eventually(Ready ready) {
-  for (int k = 0; k < 24000; ++k) {
-    if (ready()) return true;
-    const timespec pause{0, 5'000'000};
-    ::nanosleep(&pause, nullptr);
-  }
-  return false;
 }
 
 class SolveInterrupted : public testing::TestWithParam<int> {};

@@ -22,10 +22,10 @@ TEST(Help, TellsAboutEveryCommand) {
   const ProgramResult result = runProgram(folder, {"--help"});
   EXPECT_EQ(result.code, 0);
   EXPECT_THAT(result.err, IsEmpty());
-  for (const char* command : {"view", "solve", "check", "compare", "list", "Exit codes"}) {
+  for (const char* command : {"view", "solve", "report", "check", "compare", "list", "Exit codes"}) {
     EXPECT_THAT(result.out, HasSubstr(command));
   }
-  for (const char* command : {"view", "solve", "check", "compare", "list"}) {
+  for (const char* command : {"view", "solve", "report", "check", "compare", "list"}) {
     const ProgramResult help = runProgram(folder, {command, "--help"});
     EXPECT_EQ(help.code, 0);
     EXPECT_THAT(help.out, HasSubstr(std::string("Usage: unshot ") + command));
@@ -151,6 +151,12 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"solve", "room.obj", "--display", "magic"}, "it is one of radiosity"},
         UsageCase{{"solve", "room.obj", "--gl", "magic"}, "it is one of auto, osmesa"},
         UsageCase{{"solve", "room.obj", "--gl", "glfw"}, "'glfw' opens a window: only `unshot view` has one"},
+        UsageCase{{"report", "room.obj", "--out", "r", "--modes", "jacobi,magic"}, "there is no 'magic'"},
+        UsageCase{{"report", "room.obj", "--out", "r", "--modes", ""}, "there is no ''"},
+        UsageCase{{"report", "room.obj"}, "--out is missing"},
+        UsageCase{{"report", "--out", "r"}, "SCENE.obj is missing"},
+        UsageCase{{"report", "room.obj", "--out", "r", "--repeats", "0"}, "--repeats: 0 is not from 1"},
+        UsageCase{{"report", "room.obj", "--out", "r", "--mode", "jacobi"}, "no option '--mode'"},
         UsageCase{{"compare", "a", "b", "--tolerance", "-1"}, "--tolerance: -1 is not at least 0"}));
 
 INSTANTIATE_TEST_SUITE_P(

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <functional>
@@ -68,6 +69,17 @@ class ProgramRun {
 
 inline ProgramResult runProgram(const TempFolder& folder, const std::vector<std::string>& arguments) {
   return ProgramRun(folder.path(), arguments).wait();
+}
+
+/// Waits until `ready`, looking again every 5 ms; false after two minutes.
+template <class Ready>
+bool eventually(Ready ready) {
+  for (int k = 0; k < 24000; ++k) {
+    if (ready()) return true;
+    const timespec pause{0, 5'000'000};
+    ::nanosleep(&pause, nullptr);
+  }
+  return false;
 }
 
 }  // namespace unshot::testing_support
