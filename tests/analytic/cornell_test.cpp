@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "scene/analytic_scenes.h"
 #include "support/solving.h"
 #include "support/test_scenes.h"
 #include "support/truth.h"
@@ -74,6 +75,57 @@ TEST(CornellBox, HasTheReflectedLightAndColourBleedingOfTheReference) {
     EXPECT_NEAR(mean[red].x / mean[red].z, expected.x / expected.z, 0.1 * expected.x / expected.z) << side;
   }
   EXPECT_GT(mean[1].x / mean[1].y, 1.1 * mean[0].x / mean[0].y) << "the red wall colours what faces it";
+}
+
+// The program's own estimate against path-traced truth at other points: the error found there lies in its 95
+// % interval (widened by the solver's bound, which the interval does not hold).
+class CornellEstimates : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(CornellEstimates, HoldTheErrorThatTheReferenceShows) {
+  const auto solve = solved(publishedCornellBox(), optionsOf("hemicube", GetParam(), 0.002));
+  const ErrorEstimates estimates = solve->estimate(256);
+  const Truth points = truth();
+  const double error = reflectedError(points, answerProbes(solve->snapshot(), probesOf(points), false));
+  measured("error", error);
+  measured("estimated", estimates.both.value);
+  measured("interval, low", estimates.both.low);
+  measured("interval, high", estimates.both.high);
+  EXPECT_EQ(estimates.both.places, 256u);
+  EXPECT_GE(error, estimates.both.low - 0.002);
+  EXPECT_LE(error, estimates.both.high + 0.002);
+  EXPECT_LT(estimates.both.high, 3 * error);
+}
+
+INSTANTIATE_TEST_SUITE_P(Elements, CornellEstimates, testing::Values(1'000, 3'000, 10'000));
+
+// With exact factors what is left is the mesh's; with hemicubes of few pixels the factors' error is what
+// differs from the solution with many.
+TEST(FormFactorEstimates, KnowExactFactorsFromCoarseOnes) {
+  const auto exact = solved(cubeOneFaceLit(0.5), optionsOf("closed-form", 600, 1e-4));
+  const ErrorEstimates of_exact = exact->estimate(128);
+  measured("closed form", of_exact.form_factor.value);
+  EXPECT_LT(of_exact.form_factor.low, 0.005);
+  EXPECT_LT(of_exact.form_factor.value, 0.02);
+  SolveOptions options = optionsOf("hemicube", 600, 1e-4);
+  options.hemicube_resolution = 8;
+  const auto coarse = solved(cubeOneFaceLit(0.5), options);
+  options.hemicube_resolution = 256;
+  const auto fine = solved(cubeOneFaceLit(0.5), options);
+  double difference = 0, whole = 0;
+  const Snapshot a = coarse->snapshot(), b = fine->snapshot();
+  for (std::size_t e = 0; e < a.element_irradiance.size(); ++e) {
+    if (a.mesh->sides[a.mesh->element_side[e]].emission != glm::dvec3(0.0)) continue;
+    const double area = a.mesh->element_area[e];
+    difference += area * std::pow(a.element_irradiance[e].x - b.element_irradiance[e].x, 2);
+    whole += area * std::pow(b.element_irradiance[e].x, 2);
+  }
+  const double truth = std::sqrt(difference / whole);
+  const ErrorEstimates of_coarse = coarse->estimate(256);
+  measured("8 pixels, truly", truth);
+  measured("8 pixels, estimated", of_coarse.form_factor.value);
+  EXPECT_GE(truth, of_coarse.form_factor.low - 0.01);
+  EXPECT_LE(truth, of_coarse.form_factor.high + 0.01);
+  EXPECT_GT(of_coarse.form_factor.value, 3 * of_exact.form_factor.value);
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ TEST(WindowScript, EveryDisplayModeShowsAPictureOfItsOwn) {
 class PanelChoices : public testing::Test {
  protected:
   static constexpr int kWidth = 900, kPanel = 304, kLeft = kWidth - kPanel;
-  static constexpr int kScene = 21, kMode = 125, kMethod = 151, kShow = 447;
+  static constexpr int kScene = 21, kMode = 125, kMethod = 151, kShow = 551;
 
   void click(int x, int y) {
     xdotool("mousemove --window " + run_.window() + " " + std::to_string(x) + " " + std::to_string(y));
@@ -121,7 +121,7 @@ class PanelChoices : public testing::Test {
   }
 
   const Screen screen_;
-  WindowRun run_{{"--size", "900x700", "--elements", "300"}};
+  WindowRun run_{{"--size", "900x800", "--elements", "300"}};
 };
 
 TEST_F(PanelChoices, EveryRowOfEveryTable) {

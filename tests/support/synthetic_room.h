@@ -47,6 +47,7 @@ class RoomBuilder {
     quad({0.6, 0, -0.1}, {-0.5, 0, 0}, {0, 0.8, 0}, 0, 4);     // back
     quad({0.1, 0.8, 0.4}, {0.5, 0, 0}, {0, 0, -0.5}, 0, 4);    // top
     snapshot_.mesh = mesh_;
+    fillExtras();
     return snapshot_;
   }
 
@@ -55,6 +56,7 @@ class RoomBuilder {
     quad({-0.5, 1.2, -0.3}, {1, 0, 0}, {0, 0, 0.6}, 3, 1);       // lamp, faces down
     mesh_->bounds_max.y = 1.2 * options_.scale;
     snapshot_.mesh = mesh_;
+    fillExtras();
     return snapshot_;
   }
 
@@ -116,6 +118,17 @@ class RoomBuilder {
         snapshot_.element_irradiance.push_back(irradianceAt(p, surface.normal));
       }
     }
+  }
+
+  // Something for the displays that show neither light nor material.
+  void fillExtras() {
+    std::vector<glm::vec3> bounces, residual;
+    for (const Vertex& v : mesh_->vertices) {
+      bounces.emplace_back(1.5f + 0.2f * v.position.x);
+      residual.push_back(glm::vec3(0.1f + 0.5f * v.position.y * v.position.y) * glm::vec3(1, 1, 0.5f));
+    }
+    snapshot_.bounces = std::make_shared<const std::vector<glm::vec3>>(std::move(bounces));
+    snapshot_.residual = std::make_shared<const std::vector<glm::vec3>>(std::move(residual));
   }
 
   void addTriangles(const Surface& surface) {
