@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/analytic_scenes.h"
 #include "scene/obj_reader.h"
 #include "support/solving.h"
 #include "support/test_scenes.h"
@@ -33,13 +34,14 @@ Scene colouredCube() {
 
 const TestScene kScenes[] = {
     {"CornellBox", [] { return asset("cornell_box.obj"); }, "hemicube", 400},
-    {"PublishedCornellBox", [] { return publishedCornellBox(); }, "hemicube", 400},
+    {"PublishedCornellBox", [] { return publishedCornellBox(); }, "hemicube", 250},
     {"Furnace", [] { return asset("furnace.obj"); }, "closed-form", 200},
     {"TwoPatches", [] { return asset("two_patches.obj"); }, "closed-form", 100},
-    {"TwoRooms", [] { return asset("two_rooms.obj"); }, "hemicube", 100},
+    {"Spheres", [] { return concentricSpheres(0.6, 1, 0.8, 0, 6); }, "hemicube", 300},
+    {"LitAndDarkRoom", [] { return litAndDarkRoom(); }, "hemicube", 200},
     {"CubeHalf", [] { return cubeOneFaceLit(0.5); }, "closed-form", 300},
-    {"CubeNineTenths", [] { return cubeOneFaceLit(0.9); }, "hemicube", 300},
-    {"CubeNearlyWhite", [] { return cubeOneFaceLit(0.99); }, "closed-form", 200},
+    {"CubeNineTenths", [] { return cubeOneFaceLit(0.9); }, "hemicube", 150},
+    {"CubeNearlyWhite", [] { return cubeOneFaceLit(0.99); }, "closed-form", 100},
     {"ColouredCube", colouredCube, "closed-form", 150},
     {"LShapedRoom", [] { return lShapedRoom(); }, "hemicube", 300},
     {"BlockOnFloor", [] { return blockOnFloor(0.4); }, "hemicube", 300},
