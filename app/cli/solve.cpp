@@ -27,7 +27,7 @@ namespace {
 
 /// Places to estimate errors at: a small part of what the solve took.
 std::size_t placesFor(const Measures& measures) {
-  return std::clamp<std::size_t>(measures.rows / 4, 32, 256);
+  return std::clamp<std::size_t>(measures.rows / 2, 64, 512);
 }
 
 /// Steps until the solve is over or the user interrupts it.

@@ -21,6 +21,19 @@ constexpr int kMostRefreshes = 50;
 // Weights are lowered again when this share more of the columns is known.
 constexpr double kNews = 0.02;
 
+// Adds the time of a scope.
+class Timed {
+ public:
+  explicit Timed(double& seconds) : seconds_(seconds) {}
+  ~Timed() { seconds_ += wallSeconds() - began_; }
+  Timed(const Timed&) = delete;
+  Timed& operator=(const Timed&) = delete;
+
+ private:
+  double& seconds_;
+  double began_ = wallSeconds();
+};
+
 }  // namespace
 
 ErrorBudget::ErrorBudget(const Mesh& mesh, const Transport& transport, const RadiosityState& state,
@@ -33,13 +46,14 @@ ErrorBudget::ErrorBudget(const Mesh& mesh, const Transport& transport, const Rad
       bounds_(matrix_, state) {}
 
 void ErrorBudget::columnComputed(std::uint32_t q, const Column& column) {
+  const Timed timed(seconds_);
   matrix_.set(q, column);
   bounds_.columnChanged(q);
   credit_ += kShare * kColumnWork;
 }
 
 const SolverBounds& ErrorBudget::update(std::uint64_t shots) {
-  const double began = wallSeconds();
+  const Timed timed(seconds_);
   const auto entries = static_cast<double>(matrix_.entryCount());
   const double columns = std::max(1.0, static_cast<double>(matrix_.knownCount()));
   credit_ += kShare * kShotWork * static_cast<double>(shots - shots_) * entries / columns;
@@ -64,26 +78,23 @@ const SolverBounds& ErrorBudget::update(std::uint64_t shots) {
     return now_;
   }
   credit_ -= cost;
-  seconds_ += wallSeconds() - began;
   return now_;
 }
 
 const SolverBounds& ErrorBudget::sharpen() {
-  const double began = wallSeconds();
+  const Timed timed(seconds_);
   for (int k = 0; k < kMostRefreshes && bounds_.refresh(); ++k) {
   }
   gains_ = false;
   now_ = bounds_.sharpened(kLastProducts);
-  seconds_ += wallSeconds() - began;
   return now_;
 }
 
 const ErrorEstimates& ErrorBudget::estimate(std::size_t more_places) {
-  const double began = wallSeconds();
+  const Timed timed(seconds_);
   if (!residuals_) residuals_.emplace(mesh_, transport_.receivers(), seed_);
   residuals_->add(more_places);
   estimates_ = residuals_->estimate(state_, matrix_);
-  seconds_ += wallSeconds() - began;
   return estimates_;
 }
 

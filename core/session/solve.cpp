@@ -333,6 +333,8 @@ const ErrorEstimates& Solve::estimate(std::size_t more_places) {
 
 std::size_t Solve::places() const { return impl_->budget->places(); }
 
+double Solve::errorSeconds() const { return impl_->budget->seconds(); }
+
 const ErrorBounds& Solve::bounds() const { return impl_->budget->bounds(); }
 
 const ErrorEstimates& Solve::estimates() const { return impl_->budget->estimates(); }

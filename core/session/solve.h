@@ -93,6 +93,7 @@ class Solve {
   const ErrorEstimates& estimates() const;
   std::size_t places() const;  ///< that estimates() are from
   const ErrorBounds& bounds() const;
+  double errorSeconds() const;  ///< wall time that bounds and estimates took so far
   /// Stops the clocks of `measures`, as the last step left them, until the next step.
   void rest();
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "bench/drawing_table.h"
+#include "bench/estimate_table.h"
 #include "bench/frame_table.h"
 #include "bench/picture_table.h"
 #include "bench/reference_table.h"
@@ -70,7 +71,7 @@ int main(int argc, char** argv) {
           "usage: unshot_bench [--seconds T] [--quick] [--only TABLE]\n"
           "  --seconds T  time for each scene (default 10)\n"
           "  --quick      a short run that only shows that everything works\n"
-          "  --only T     one table: pictures, drawings, scenes, frames or reference\n"
+          "  --only T     one table: pictures, drawings, scenes, frames, reference or estimates\n"
           "UNSHOT_SCENES names a folder of further scenes, with reference values in its folder truth.\n");
       return 2;
     }
@@ -81,6 +82,7 @@ int main(int argc, char** argv) {
     if (wanted("drawings")) printDrawings(quick);
     if (wanted("scenes")) unshot::bench::printSceneTable(sceneFolders(quick), seconds);
     if (wanted("frames")) printFrames(quick);
+    if (wanted("estimates")) unshot::bench::printEstimateTable(quick);
     if (wanted("reference")) unshot::bench::printReferenceTable(quick ? 8 : 256, quick ? 0.3 : 0.01);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "unshot_bench: %s\n", error.what());

@@ -106,7 +106,7 @@ TEST_F(SessionFailure, KeepsTheSceneBeforeUntilTheNextIsReady) {
   for (const auto& seen : watch.seen()) {
     if (seen.state->phase != SessionPhase::kLoading || seen.state->epoch != 1) continue;
     ++loading;
-    EXPECT_EQ(seen.state->snapshot, first->snapshot);
+    EXPECT_EQ(seen.state->snapshot->mesh, first->snapshot->mesh);
     EXPECT_EQ(seen.state->facts, first->facts);
   }
   EXPECT_EQ(loading, 2);

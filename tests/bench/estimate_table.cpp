@@ -1,0 +1,47 @@
+#include "bench/estimate_table.h"
+
+#include <memory>
+#include <string>
+
+#include "base/clock.h"
+#include "bench/text_table.h"
+#include "gl/context.h"
+#include "scene/obj_reader.h"
+#include "session/solve.h"
+#include "solver/modes.h"
+
+namespace unshot::bench {
+namespace {
+
+void addRow(TextTable& table, const std::string& scene, const std::string& mode, bool quick) {
+  std::unique_ptr<gl::Context> context;
+  SolveOptions options;
+  options.mode = mode;
+  options.error = quick ? 0.1 : 0.003;
+  options.max_seconds = quick ? 1 : 20;
+  if (quick) options.elements = 300;
+  Solve solve(readObj(UNSHOT_SOURCE_DIR "/assets/" + scene + ".obj"), options, [&]() -> gl::Context& {
+    if (!context) context = gl::createContext("osmesa");
+    return *context;
+  });
+  while (solve.state() == SolveState::kRunning) solve.step();
+  const double bounds = solve.errorSeconds(), seconds = solve.measures().seconds, began = wallSeconds();
+  solve.estimate(256);
+  table.add({scene, mode, figure("%.2f", seconds), figure("%.1f %%", 100 * bounds / seconds),
+             figure("%.3f", wallSeconds() - began)});
+}
+
+}  // namespace
+
+void printEstimateTable(bool quick) {
+  TextTable table({"scene", "mode", "solve, s", "bounds, share of it", "256 places, s"});
+  for (const IterationModeRow& row : iterationModes())
+    addRow(table, "cornell_box", std::string(row.info.key), quick);
+  if (!quick) {
+    addRow(table, "two_rooms", "southwell", quick);
+    addRow(table, "library", "southwell", quick);
+  }
+  table.print();
+}
+
+}  // namespace unshot::bench
