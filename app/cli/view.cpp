@@ -35,7 +35,6 @@ class ViewArguments {
                                  : std::filesystem::path(scene_);
     setup.bundled = bundledScenes();
     setup.options = solver_.options();
-    setup.options.draft_first = true;
     setup.options.hemicube_drawing = HemicubeDrawing::kClassic;
     setup.settings.view.display = display_;
     if (!script_.empty()) {

@@ -10,13 +10,21 @@
 
 namespace unshot {
 
+/// How exactly a column is known, from the least.
+enum class ColumnQuality : std::uint8_t {
+  kGroup,     ///< as if the patch lay anywhere in the group of patches around it
+  kOnePoint,  ///< as if all of it lay in one point
+  kFull       ///< as exactly as the method has it
+};
+
 /// What patch q sends where. With A the areas, sum_v A_v K_vq / A_q + escape + defect = 1.
 struct Column {
   std::vector<std::uint32_t> receiver;  ///< ascending; empty where `k` has one value per receiver
   std::vector<float> k;                 ///< K_vq
   double escape = 0;                    ///< share of q's light that meets no surface
   double defect = 0;                    ///< share lost (or, negative, gained) by approximation
-  bool draft = false;                   ///< FormFactorMethod::column has a better one
+  ColumnQuality quality = ColumnQuality::kFull;
+  bool at_hand = false;  ///< made of what an earlier draft was computed for; nothing was computed anew
 
   template <class F>
   void forEach(F&& f) const {
@@ -44,9 +52,12 @@ class FormFactorMethod {
   virtual ReceiverKind receiverKind() const = 0;
   /// By shooting from patch q.
   virtual Column column(std::uint32_t q) = 0;
-  /// Column q sooner and less exactly, of the same energy; the column itself where the method has nothing
-  /// cheaper, or where it would show (emitters). The same at each call.
-  virtual Column draft(std::uint32_t q) { return column(q); }
+  /// Column q sooner, `wanted` exactly or better, of the same energy; the column itself where the method has
+  /// nothing cheaper, or where it would show (emitters). The same at each call.
+  virtual Column draft(std::uint32_t q, ColumnQuality wanted) {
+    static_cast<void>(wanted);
+    return column(q);
+  }
   /// By gathering at receiver v.
   virtual Row row(std::uint32_t v) = 0;
   /// Pictures drawn so far (hemicubes), for reports; 0 where the method draws none.

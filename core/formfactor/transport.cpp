@@ -11,7 +11,7 @@ Transport::Transport(std::unique_ptr<FormFactorMethod> method, Receivers receive
       patch_area_(std::move(patch_area)),
       budget_(kept_bytes),
       kept_(patch_area_.size()),
-      quality_(patch_area_.size(), Quality::kUnused) {}
+      quality_(patch_area_.size()) {}
 
 const Column& Transport::column(std::uint32_t q) {
   if (kept_[q]) return *kept_[q];
@@ -21,18 +21,16 @@ const Column& Transport::column(std::uint32_t q) {
 
 // A column that found no room is computed again as it was used before.
 Column Transport::compute(std::uint32_t q) {
-  const bool draft = quality_[q] == Quality::kUnused ? drafts_allowed_ : quality_[q] == Quality::kDraft;
-  return compute(q, draft);
+  return compute(q, quality_[q].value_or(drafts_allowed_ ? ColumnQuality::kGroup : ColumnQuality::kFull));
 }
 
-Column Transport::compute(std::uint32_t q, bool draft) {
-  ++computed_;
-  Column column = draft ? method_->draft(q) : method_->column(q);
-  const Quality quality = column.draft ? Quality::kDraft : Quality::kFull;
-  if (quality == quality_[q]) return column;
-  if (quality_[q] == Quality::kDraft) --draft_count_;
-  if (quality == Quality::kDraft) ++draft_count_;
-  quality_[q] = quality;
+Column Transport::compute(std::uint32_t q, ColumnQuality wanted) {
+  Column column = wanted == ColumnQuality::kFull ? method_->column(q) : method_->draft(q, wanted);
+  if (!column.at_hand) ++computed_;
+  if (quality_[q] == column.quality) return column;
+  if (quality_[q]) --counts_[static_cast<std::size_t>(*quality_[q])];
+  ++counts_[static_cast<std::size_t>(column.quality)];
+  quality_[q] = column.quality;
   if (watcher_) watcher_(q, column);
   return column;
 }
@@ -59,8 +57,10 @@ std::pair<Column, const Column&> Transport::refine(std::uint32_t q) {
     kept_[q].reset();
   }
   if (passing_patch_ == q) passing_patch_ = kNone;
-  ++refined_;
-  return {std::move(draft), keep(q, compute(q, false))};
+  const bool once = *quality_[q] == ColumnQuality::kGroup;
+  const Column& better = keep(q, compute(q, once ? ColumnQuality::kOnePoint : ColumnQuality::kFull));
+  if (better.quality == ColumnQuality::kFull) ++refined_;
+  return {std::move(draft), better};
 }
 
 Row Transport::row(std::uint32_t v) {

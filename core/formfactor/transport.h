@@ -2,8 +2,10 @@
 // computed is kept within a budget and computed again where it does not fit.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -34,11 +36,14 @@ class Transport {
   /// Whether columns not yet at hand are drafts where the method has them (FormFactorMethod::draft); at first
   /// not.
   void allowDrafts(bool allowed) { drafts_allowed_ = allowed; }
-  /// Whether column q as used so far is a draft.
-  bool isDraft(std::uint32_t q) const { return quality_[q] == Quality::kDraft; }
-  std::size_t draftCount() const { return draft_count_; }
-  std::uint64_t refined() const { return refined_; }  ///< drafts replaced so far
-  /// Replaces the draft of q: first = the draft, second = the column from now on.
+  /// Of column q as used so far; none where it was not.
+  std::optional<ColumnQuality> quality(std::uint32_t q) const { return quality_[q]; }
+  bool isDraft(std::uint32_t q) const { return quality_[q] && *quality_[q] != ColumnQuality::kFull; }
+  /// Columns in use of this quality.
+  std::size_t count(ColumnQuality quality) const { return counts_[static_cast<std::size_t>(quality)]; }
+  std::size_t draftCount() const { return count(ColumnQuality::kGroup) + count(ColumnQuality::kOnePoint); }
+  std::uint64_t refined() const { return refined_; }  ///< drafts that became full columns so far
+  /// Replaces the draft of q by the next better column: first = before, second = from now on.
   std::pair<Column, const Column&> refine(std::uint32_t q);
   Row row(std::uint32_t v);
   /// out = K d, channel by channel. `d` one per patch, `out` one per receiver.
@@ -50,10 +55,8 @@ class Transport {
   std::size_t keptColumns() const { return kept_count_; }
 
  private:
-  enum class Quality : char { kUnused, kDraft, kFull };
-
   Column compute(std::uint32_t q);
-  Column compute(std::uint32_t q, bool draft);
+  Column compute(std::uint32_t q, ColumnQuality wanted);
   const Column& keep(std::uint32_t q, Column column);
 
   std::unique_ptr<FormFactorMethod> method_;
@@ -65,8 +68,8 @@ class Transport {
   Column passing_;  // the last column that found no room
   std::uint32_t passing_patch_ = kNone;
   std::uint64_t computed_ = 0, refined_ = 0;
-  std::vector<Quality> quality_;  // of the columns used so far
-  std::size_t draft_count_ = 0;
+  std::vector<std::optional<ColumnQuality>> quality_;  // of the columns used so far
+  std::array<std::size_t, 3> counts_{};                // by quality
   bool drafts_allowed_ = false;
   std::function<void(std::uint32_t, const Column&)> watcher_;
 };

@@ -22,7 +22,7 @@ class ColumnStore::Method final : public FormFactorMethod {
 
   ReceiverKind receiverKind() const override { return method_->receiverKind(); }
   Column column(std::uint32_t q) override { return store_.column(*method_, q); }
-  Column draft(std::uint32_t q) override { return method_->draft(q); }
+  Column draft(std::uint32_t q, ColumnQuality wanted) override { return method_->draft(q, wanted); }
   Row row(std::uint32_t v) override { return method_->row(v); }
   std::uint64_t drawn() const override { return method_->drawn(); }
   std::string note() const override { return method_->note(); }

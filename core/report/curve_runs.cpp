@@ -55,7 +55,6 @@ CurveRuns::CurveRuns(const Scene& scene, SolveOptions options, std::function<gl:
     : scene_(scene), options_(std::move(options)), gl_(std::move(gl)), columns_(options_.kept_bytes) {
   options_.max_seconds.reset();
   options_.max_shots.reset();
-  options_.draft_first = false;
   options_.wrap_form_factors = [this](std::unique_ptr<FormFactorMethod> method) {
     return columns_.wrap(std::move(method));
   };

@@ -13,13 +13,15 @@ constexpr double kShare = 0.08;
 // (1 to 2 ms), and a shot along one at hand that many for each entry of its patch column (it has as many
 // receivers on a patch).
 constexpr double kColumnWork = 300'000, kShotWork = 15;
-// Products of a sharpening on the way, and at the end.
-constexpr int kProducts = 1, kLastProducts = 8;
-// What a refresh costs in products.
-constexpr double kRefreshProducts = 8;
+// Products of a sharpening: on the way no more than this share of what may be spent pays for, but one; at the
+// end all.
+constexpr int kMostProducts = 8;
+constexpr double kSpent = 0.25;
+// What a refresh costs in products, before and after all columns are known.
+constexpr double kTotalRefresh = 4, kWholeRefresh = 12;
 constexpr int kMostRefreshes = 50;
 // Weights are lowered again when this share more of the columns is known.
-constexpr double kNews = 0.02;
+constexpr double kNews = 0.03;
 
 // Adds the time of a scope.
 class Timed {
@@ -59,21 +61,28 @@ const SolverBounds& ErrorBudget::update(std::uint64_t shots) {
   credit_ += kShare * kShotWork * static_cast<double>(shots - shots_) * entries / columns;
   shots_ = shots;
   now_ = bounds_.at();
-  double cost = (kProducts + 0.2) * entries;
+  double cost = 1.2 * entries;
   if (credit_ < cost) return now_;
   const bool known_more = static_cast<double>(matrix_.knownCount()) >=
                           static_cast<double>(refreshed_count_) + kNews * static_cast<double>(matrix_.size());
   const bool rested = refreshed_version_ != matrix_.version() && matrix_.version() == last_version_;
   last_version_ = matrix_.version();
   if (known_more || rested || (gains_ && refreshed_version_ == matrix_.version())) {
-    cost = kRefreshProducts * entries;
+    cost = (bounds_.complete() ? kWholeRefresh : kTotalRefresh) * entries;
     if (credit_ < cost) return now_;
     gains_ = bounds_.refresh();
     refreshed_count_ = matrix_.knownCount();
     refreshed_version_ = matrix_.version();
+    credit_ -= cost;
     now_ = bounds_.at();
-  } else if (bounds_.comparable()) {
-    now_ = bounds_.sharpened(kProducts);
+    cost = 1.2 * entries;
+    if (credit_ < cost) return now_;
+  }
+  if (bounds_.comparable()) {
+    const double affordable = std::clamp(kSpent * credit_ / entries, 1.0, double{kMostProducts});
+    const int products = static_cast<int>(affordable);
+    now_ = bounds_.sharpened(products);
+    cost = (products + 0.2) * entries;
   } else {
     return now_;
   }
@@ -86,7 +95,7 @@ const SolverBounds& ErrorBudget::sharpen() {
   for (int k = 0; k < kMostRefreshes && bounds_.refresh(); ++k) {
   }
   gains_ = false;
-  now_ = bounds_.sharpened(kLastProducts);
+  now_ = bounds_.sharpened(kMostProducts);
   return now_;
 }
 

@@ -52,8 +52,9 @@ struct Solve::Impl {
   std::optional<Error> failure;
   Measures measures;
   std::vector<HistoryEntry> history;
-  bool resting = false, mode_failed = false, refining = false;
-  double measured_wall = 0, measured_cpu = 0;                            // when `measures` were taken
+  bool resting = false, mode_failed = false;
+  std::optional<ColumnQuality> refining;       // drafts of this quality are giving way
+  double measured_wall = 0, measured_cpu = 0;  // when `measures` were taken
   std::shared_ptr<const std::vector<glm::vec3>> direct, element_direct;  // for emission_shots of the state
   std::uint64_t emission_shots = 0;
   std::shared_ptr<const std::vector<glm::vec3>> bounces, residual;
@@ -74,7 +75,9 @@ struct Solve::Impl {
   void checkLimits();
   void checkStagnation();
   void record();
+  bool refinesNow();
   void refineBrightest();
+  ColumnQuality leastQuality() const;
   std::optional<std::size_t> iterate();
 };
 
@@ -145,6 +148,7 @@ void Solve::Impl::chooseMode(const std::string& key) {
     throw Error(ErrorKind::kEnvironment, "the mode '" + chosen + "' is not for this scene: " + reason);
   }
   mode_row = &row;
+  if (!row.drafts) transport->allowDrafts(false);
   mode.reset();
   mode_key = chosen;
   options.mode = key;
@@ -222,20 +226,30 @@ void Solve::Impl::checkStagnation() {
 
 // A curve needs no more points than a plot has pixels: each is a hundredth further than the last.
 void Solve::Impl::record() {
-  const auto steps = [](const Measures& m) { return m.shots + m.refined; };
+  const auto steps = [](const Measures& m) { return m.shots + m.rows; };
   const std::uint64_t last = steps(history.back().measures), now = steps(measures);
   const bool ended = progress_state != SolveState::kRunning && now > last;
   if (ended || now >= last + std::max<std::uint64_t>(1, last / 100)) history.push_back({measures});
 }
 
-// The draft whose patch has shot the most power is replaced; columns that are new from now on are none.
+// Once the error is reached with drafts, all of the least quality give way, one a step, before the mode goes
+// on with what that brought.
+bool Solve::Impl::refinesNow() {
+  const std::optional<ColumnQuality> before = std::exchange(refining, std::nullopt);
+  if (measures.drafts == 0) return false;
+  if (measures.solverBound() <= options.error || before == leastQuality()) refining = leastQuality();
+  return refining.has_value();
+}
+
+// Of the drafts of the least quality, that whose patch has shot the most power gives way to the next better
+// column; columns that are new from now on are full.
 void Solve::Impl::refineBrightest() {
   transport->allowDrafts(false);
   mode.reset();
   std::uint32_t brightest = kNone;
   double most = -1;
   for (std::uint32_t q = 0; q < state->patchCount(); ++q) {
-    if (!transport->isDraft(q)) continue;
+    if (transport->quality(q) != leastQuality()) continue;
     const glm::dvec3& shot = state->shot()[q];
     const double power = state->area()[q] * (std::abs(shot.x) + std::abs(shot.y) + std::abs(shot.z));
     if (power <= most) continue;
@@ -244,6 +258,10 @@ void Solve::Impl::refineBrightest() {
   }
   const auto [draft, column] = transport->refine(brightest);
   state->replaceColumn(brightest, draft, column);
+}
+
+ColumnQuality Solve::Impl::leastQuality() const {
+  return transport->count(ColumnQuality::kGroup) > 0 ? ColumnQuality::kGroup : ColumnQuality::kOnePoint;
 }
 
 // A step of the mode; one that cannot go on ends the solve as failed, with what it has.
@@ -270,19 +288,19 @@ void Solve::step() {
   if (s.progress_state != SolveState::kRunning) return;
   s.wakeClocks();
   bool nothing_left = false;
-  const std::uint64_t refined = s.measures.refined;
-  s.refining = s.measures.drafts > 0 && (s.refining || s.measures.solverBound() <= s.options.error);
-  if (s.refining) {
+  bool refined = true;
+  if (s.refinesNow()) {
     s.refineBrightest();
   } else if (const auto used = s.iterate()) {
     s.measures.shots += *used;
+    refined = false;
   } else {
     nothing_left = s.measures.drafts == 0;
-    if (!nothing_left) s.refineBrightest();
+    refined = !nothing_left;
+    if (refined) s.refineBrightest();
   }
   s.measure();
-  if (s.measures.refined != refined)
-    s.stagnation.restart(s.measures);  // a better column brings unshot light of its own
+  if (refined) s.stagnation.restart(s.measures);  // a better column brings unshot light of its own
   if (s.progress_state == SolveState::kRunning) s.checkLimits();
   if (s.progress_state == SolveState::kLimit || nothing_left) s.measures.bounds = s.budget->sharpen();
   if (s.progress_state == SolveState::kRunning && nothing_left)
@@ -405,7 +423,7 @@ std::size_t Solve::workingBytes() const {
   const RadiosityState& state = *impl_->state;
   // Per patch E, rho, S, U, E left and A; per receiver H and H_d.
   return state.patchCount() * (5 * sizeof(glm::dvec3) + sizeof(double)) +
-         2 * state.irradiance().size() * sizeof(glm::dvec3) + impl_->mode->bytes();
+         2 * state.irradiance().size() * sizeof(glm::dvec3) + (impl_->mode ? impl_->mode->bytes() : 0);
 }
 
 std::uint64_t Solve::drawn() const { return impl_->transport->drawn(); }

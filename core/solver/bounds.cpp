@@ -47,7 +47,7 @@ bool positivePair(F&& multiply, std::vector<glm::dvec3>& v, std::vector<glm::dve
 }  // namespace
 
 ErrorBounds::ErrorBounds(const PatchMatrix& matrix, const RadiosityState& state)
-    : matrix_(matrix), state_(state), counted_(state.patchCount()) {
+    : matrix_(matrix), state_(state), counted_(state.patchCount()), norm_(matrix, state) {
   for (std::size_t q = 0; q < counted_.size(); ++q) {
     counted_[q] = state.emission()[q] == glm::dvec3(0.0);
     if (counted_[q]) counted_area_ += state.area()[q];
@@ -190,7 +190,10 @@ bool ErrorBounds::refresh() {
   if (z_.empty() && complete_) startTotal();
   if (!complete_) v_.clear();
   if (complete_ && compared_version_ != matrix_.version()) startComparison();
-  if (compared_version_ != matrix_.version()) adapted_v_.clear();
+  if (compared_version_ != matrix_.version()) {
+    adapted_v_.clear();
+    nearby_.clear();
+  }
   bool gains = false;
   for (int k = 0; k < kProductsAtOnce; ++k) {
     gains = !z_.empty() && lowerTotal();
@@ -209,6 +212,7 @@ bool ErrorBounds::refresh() {
   ++revision_;
   compared_version_ = matrix_.version();
   bracketRadius();
+  norm_.refresh();
   return gains;
 }
 
@@ -244,7 +248,9 @@ double ErrorBounds::totalUpper() const {
 SolverBounds ErrorBounds::at() const {
   SolverBounds out;
   out.total_upper = totalUpper();
-  if (comparable()) out.upper = upperOf(comparison(v_, w_, adapted_v_, adapted_w_));
+  if (!comparable()) return out;
+  out.upper = std::min({upperOf(comparison(v_, w_, adapted_v_, adapted_w_)),
+                        upperOf(rmsAfter(state_.unshot())), upperOf(rmsFromNearby())});
   return out;
 }
 
@@ -265,9 +271,24 @@ ErrorBounds::Field ErrorBounds::comparison(const Field& v, const Field& w, const
   return above;
 }
 
-double ErrorBounds::upperOf(const Field& above) const {
-  const double now = rmsCounted(reflectedNow()), error = rmsCounted(above);
-  return now > error ? error / (now - error) : kNoBound;
+double ErrorBounds::upperOf(const Field& above) const { return upperOf(rmsCounted(above)); }
+
+double ErrorBounds::upperOf(double rms) const {
+  const double now = rmsCounted(reflectedNow());
+  return now > rms ? rms / (now - rms) : kNoBound;
+}
+
+// A bound of the RMS of (I - M)^-1 M y where errors count.
+double ErrorBounds::rmsAfter(const Field& y) const {
+  return counted_area_ > 0 ? std::sqrt(norm_.squaresAfter(y) / (3 * counted_area_)) : 0;
+}
+
+// By way of the nearby solution, where there is one.
+double ErrorBounds::rmsFromNearby() const {
+  if (nearby_.empty()) return kNoBound;
+  Field off(nearby_.size());
+  for (std::size_t q = 0; q < off.size(); ++q) off[q] = nearby_[q] - state_.shot()[q] - state_.unshot()[q];
+  return rmsCounted(off) + nearby_error_;
 }
 
 // With signs, so that what cancels in M U counts as cancelled: e = M U + ... + M^k U + (I - M)^-1 M (M^k U).
@@ -292,7 +313,10 @@ SolverBounds ErrorBounds::sharpened(int products) {
   for (std::size_t q = 0; q < n; ++q) {
     above[q] = glm::abs(powers[q]) * (1 + kRounding) + factor * glm::max(v_[q] - w_[q], glm::dvec3(0.0));
   }
-  out.upper = std::min(out.upper, upperOf(above));
+  nearby_.resize(n);
+  for (std::size_t q = 0; q < n; ++q) nearby_[q] = state_.shot()[q] + state_.unshot()[q] + powers[q];
+  nearby_error_ = rmsAfter(power) + rmsCounted(powers) * kRounding;
+  out.upper = std::min({out.upper, upperOf(above), upperOf(rmsFromNearby())});
   if (low < -kSignless * high) return out;
   const double now = rmsCounted(reflectedNow()), error = rmsCounted(above);
   if (now + error > 0) out.lower = rmsCounted(powers) * (1 - kRounding) / (now + error);

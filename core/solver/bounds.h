@@ -10,7 +10,7 @@
 // Per patch, once all columns that matter are known: with v > 0 and w = v - M v > 0, |e| <= (v - w) max |U| /
 // w (comparison; Varga, Matrix Iterative Analysis, 3.5). v is near the solution of (I - M) v = 1: the
 // expected number of patches that light leaving a patch meets, itself included. Powers of M on |U| sharpen
-// it.
+// it. In the mean square, NormBound bounds it without taking |U|. The smaller counts.
 //
 // Errors count on patches without emission of their own (on all, where all emit), weighted by area, over
 // channels.
@@ -20,6 +20,7 @@
 #include <limits>
 #include <vector>
 
+#include "solver/norm_bound.h"
 #include "solver/patch_matrix.h"
 #include "solver/state.h"
 
@@ -81,6 +82,9 @@ class ErrorBounds {
   double totalUpper() const;
   Field comparison(const Field& v, const Field& w, const Field& v2, const Field& w2) const;
   double upperOf(const Field& above) const;
+  double upperOf(double rms) const;
+  double rmsAfter(const Field& y) const;
+  double rmsFromNearby() const;
   double rmsCounted(const Field& x) const;
   Field reflectedNow() const;
 
@@ -95,6 +99,10 @@ class ErrorBounds {
   Field z_;                                             // empty: no bound
   Field v_, w_, spectral_;
   Field adapted_v_, adapted_w_;  // another pair, of the shape of U at the last sharpening
+  NormBound norm_;
+  // B + M U + ... + M^k U at the last sharpening: nearer to the solution, and how far from it at most (RMS).
+  Field nearby_;
+  double nearby_error_ = 0;
   glm::dvec3 radius_lower_{0.0}, radius_upper_{kNoBound};
 };
 

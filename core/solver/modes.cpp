@@ -57,7 +57,8 @@ std::span<const IterationModeRow> iterationModes() {
        always},
       {{"direct", "Direct solution", "dense factorisation; exact to rounding, for small scenes"},
        makeDirect,
-       directUnavailable},
+       directUnavailable,
+       false},
   }};
   return table;
 }

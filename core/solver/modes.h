@@ -49,6 +49,8 @@ struct IterationModeRow {
   std::unique_ptr<IterationMode> (*make)();
   /// Empty, or why the mode is not for this system, with what to try in parentheses.
   std::string (*unavailable)(const ModeSetup&);
+  /// Whether it gains from form factors that are drafts at first: not where other ones mean to begin anew.
+  bool drafts = true;
 };
 
 std::span<const IterationModeRow> iterationModes();

@@ -101,5 +101,33 @@ INSTANTIATE_TEST_SUITE_P(Methods, FurnaceSweeps,
                          testing::ValuesIn(formFactorMethods().begin(), formFactorMethods().end()),
                          [](const auto& row) { return testName(row.param.info.key); });
 
+// rho^(k+1) and what follows from it: sweeps from B = E to a relative error of 1e-6. Rows are closed to the
+// rounding of single precision, so that rho is off by some 1e-7 of itself: nothing to notice but after
+// thousands of sweeps.
+TEST(FurnaceSweepsOfClosedFormRows, FollowThePowersOfRhoAndTakeTheSweepsOfTheReference) {
+  const std::pair<double, int> expected[] = {{0.5, 19}, {0.8, 61}, {0.9, 131}, {0.99, 1374}, {0.999, 13808}};
+  for (const auto& [rho, sweeps] : expected) {
+    SolveOptions options = optionsOf("closed-form", 6, 1e-9);
+    options.mode = "direct";
+    const std::vector<glm::dvec3> exact = solved(furnaceScene(rho, 1 - rho), options)->patchRadiosity();
+    options.mode = "jacobi";
+    const auto solve = begun(furnaceScene(rho, 1 - rho), options);
+    const std::uint64_t patches = solve->mesh().patch_count;
+    int sweep = 0;
+    for (double error = 1; error > 1e-6 && sweep < 20'000;) {
+      ++sweep;
+      for (std::uint64_t k = 0; k < patches; ++k) solve->step();
+      error = 0;
+      const std::vector<glm::dvec3> b = solve->patchRadiosity();
+      for (std::size_t q = 0; q < b.size(); ++q) error = std::max(error, std::abs(1 - b[q].x / exact[q].x));
+      if (sweep <= 50) {
+        EXPECT_NEAR(error / std::pow(rho, sweep + 1), 1, 1e-4) << rho << ", sweep " << sweep;
+      }
+    }
+    measured("sweeps at " + std::to_string(rho), sweep);
+    EXPECT_NEAR(sweep, sweeps, 2e-4 * sweeps) << rho;
+  }
+}
+
 }  // namespace
 }  // namespace unshot

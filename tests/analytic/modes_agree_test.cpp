@@ -94,6 +94,8 @@ TrueError trueError(const Solve& solve, const std::vector<glm::dvec3>& exact) {
 // times that: 1e-6 leaves a factor of 1000 for the smallest.
 TEST_P(ModesAgree, WithTheDirectSolution) {
   SolveOptions options = optionsOf(GetParam().method, GetParam().elements, 1e-9);
+  options.draft_first = false;  // bounds are those of the form factors at hand
+  const bool cornell = std::string_view(GetParam().name) == "CornellBox";
   options.mode = "direct";
   const auto direct = solved(GetParam().make(), options);
   const std::vector<glm::dvec3> exact = direct->patchRadiosity();
@@ -104,7 +106,8 @@ TEST_P(ModesAgree, WithTheDirectSolution) {
     std::uint64_t step = 0;
     while (solve->state() == SolveState::kRunning) {
       solve->step();
-      if (++step % 7) continue;  // the truth costs a pass
+      // The truth costs a pass, and some modes take few steps.
+      if (++step % 7 && !(cornell && solve->measures().bounds.upper < kNoBound)) continue;
       const TrueError error = trueError(*solve, exact);
       const SolverBounds& b = solve->measures().bounds;
       // Rounding of the two solutions.
@@ -121,8 +124,8 @@ TEST_P(ModesAgree, WithTheDirectSolution) {
     const double per_patch = medianOf(ratios), total = medianOf(total_ratios);
     measured(std::string(row.info.key) + ", median of bound over error, RMS", per_patch);
     measured(std::string(row.info.key) + ", median of bound over error, total", total);
-    // In sum the bound is near; patch by patch, what cancels in a U of both signs does not count.
-    if (std::string_view(GetParam().name) == "CornellBox") {
+    if (cornell) {
+      EXPECT_LT(per_patch, 3) << row.info.key;
       EXPECT_LT(total, 3) << row.info.key;
     }
   }

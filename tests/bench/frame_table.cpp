@@ -22,7 +22,6 @@ LiveViewer::Options cornellBox(std::uint64_t elements) {
   LiveViewer::Options options;
   options.scene = UNSHOT_SOURCE_DIR "/assets/cornell_box.obj";
   options.solve.elements = elements;
-  options.solve.draft_first = true;  // as `unshot view` does
   options.width = kWidth;
   options.height = kHeight;
   return options;

@@ -48,7 +48,7 @@ class HemicubeCost {
   double measureOnce(std::uint32_t patch, bool draft = false) {
     const std::uint64_t drawn = method_->drawn();
     const double start = cpuSeconds(), wall_start = wallSeconds();
-    draft ? method_->draft(patch) : method_->column(patch);
+    draft ? method_->draft(patch, ColumnQuality::kOnePoint) : method_->column(patch);
     const auto pictures = static_cast<double>(method_->drawn() - drawn);
     seconds_.push_back((cpuSeconds() - start) / pictures);
     wall_.push_back((wallSeconds() - wall_start) / pictures);

@@ -22,7 +22,7 @@ class DraftMethod final : public FormFactorMethod {
   ReceiverKind receiverKind() const override { return table_.receiverKind(); }
   Column column(std::uint32_t q) override { return table_.column(q); }
   Row row(std::uint32_t v) override { return table_.row(v); }
-  Column draft(std::uint32_t q) override {
+  Column draft(std::uint32_t q, ColumnQuality) override {
     Column out = table_.column(q);
     if (system_.emission[q] != glm::dvec3(0.0)) return out;
     out.receiver.resize(1);
@@ -31,7 +31,7 @@ class DraftMethod final : public FormFactorMethod {
     out.defect =
         1 - out.escape -
         static_cast<double>(out.k[0]) * system_.receivers.area[out.receiver[0]] / system_.patch_area[q];
-    out.draft = true;
+    out.quality = ColumnQuality::kOnePoint;
     return out;
   }
 
@@ -69,8 +69,8 @@ TEST_P(Drafts, EndAtTheSolutionOfTheRealFormFactors) {
   for (std::uint32_t q = 0; q < 24; ++q) {
     if (!transport.isDraft(q)) continue;
     const auto [draft, column] = transport.refine(q);
-    EXPECT_TRUE(draft.draft);
-    EXPECT_FALSE(column.draft);
+    EXPECT_EQ(draft.quality, ColumnQuality::kOnePoint);
+    EXPECT_EQ(column.quality, ColumnQuality::kFull);
     state.replaceColumn(q, draft, column);
     EXPECT_LE(transport.keptBytes(), GetParam());
   }
