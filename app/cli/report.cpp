@@ -45,8 +45,10 @@ void printTable(std::ostream& out, const CurveRecord& record) {
   const ErrorMeasure error = mainMeasure(record);
   std::vector<std::vector<std::string>> lines(1);
   lines[0] = {"mode"};
-  for (const double level : kErrorLevels) lines[0].push_back("s to " + percentText(level));
-  for (const double level : kErrorLevels) lines[0].push_back("rows to " + percentText(level));
+  for (const char* cost : {"s to ", "rows to "}) {
+    for (const double level : kErrorLevels)
+      lines[0].push_back((level == kErrorLevels[0] ? cost : "") + percentText(level));
+  }
   lines[0].emplace_back("memory");
   for (const ModeCurve& curve : record.curves) {
     if (curve.points.empty()) continue;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <string_view>
 
 #include "render/targets.h"
 
@@ -20,6 +22,14 @@ GLuint textureName(ImTextureID id) { return static_cast<GLuint>(reinterpret_cast
 template <class T>
 void upload(const gl::Functions& fn, GLenum target, const ImVector<T>& values) {
   fn.BufferData(target, static_cast<GLsizeiptr>(values.size_in_bytes()), values.Data, GL_STREAM_DRAW);
+}
+
+/// Mixes the bytes of some values into `hash`.
+template <class T>
+void mix(std::size_t& hash, const T* values, int count) {
+  const std::string_view bytes(reinterpret_cast<const char*>(values),
+                               sizeof(T) * static_cast<std::size_t>(count));
+  hash = 31 * hash + std::hash<std::string_view>()(bytes);
 }
 
 /// The nearest pixel edge in [0, size].
@@ -40,6 +50,25 @@ bool setClip(const gl::Functions& fn, const ImVec4& clip, const ImDrawData& data
 }
 
 }  // namespace
+
+std::size_t fingerprint(const ImDrawData& data) {
+  std::size_t hash = 0;
+  mix(hash, &data.DisplayPos, 1);
+  mix(hash, &data.DisplaySize, 1);
+  mix(hash, &data.FramebufferScale, 1);
+  for (int i = 0; i < data.CmdListsCount; ++i) {
+    const ImDrawList& list = *data.CmdLists[i];
+    mix(hash, list.VtxBuffer.Data, list.VtxBuffer.Size);
+    mix(hash, list.IdxBuffer.Data, list.IdxBuffer.Size);
+    for (const ImDrawCmd& command : list.CmdBuffer) {
+      const ImTextureID texture = command.GetTexID();
+      mix(hash, &command.ClipRect, 1);
+      mix(hash, &texture, 1);
+      mix(hash, &command.ElemCount, 1);
+    }
+  }
+  return hash;
+}
 
 GuiRenderer::GuiRenderer(gl::Context& context)
     : context_(context),

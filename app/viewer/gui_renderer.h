@@ -4,9 +4,14 @@
 
 #include <imgui.h>
 
+#include <cstddef>
+
 #include "gl/objects.h"
 
 namespace unshot {
+
+/// Equal for draw data that looks alike, as long as the same fonts stand; user callbacks do not count.
+std::size_t fingerprint(const ImDrawData& data);
 
 /// All calls on the thread where the context is current. One ImGui context may be used with it at a time.
 class GuiRenderer {

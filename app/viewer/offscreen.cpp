@@ -56,6 +56,7 @@ int runOffscreen(ViewerSetup setup, const std::string& provider, int width, int 
     viewer.update(wallSeconds());
     const double now = wallSeconds();
     if (viewer.nextFrame(now) <= now) {
+      if (!viewer.prepare()) continue;
       if (target_width != width || target_height != height) {
         fn.BindTexture(GL_TEXTURE_2D, texture.id());
         fn.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
@@ -70,8 +71,7 @@ int runOffscreen(ViewerSetup setup, const std::string& provider, int width, int 
       io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
       io.DeltaTime = static_cast<float>(std::clamp(now - last, 1e-4, 0.1));
       last = now;
-      viewer.draw(framebuffer.id(), width, height);
-      viewer.presented();
+      if (viewer.draw(framebuffer.id(), width, height)) viewer.presented();
       continue;
     }
     bell.wait(std::clamp(std::min(viewer.nextFrame(now), viewer.nextUpdate()) - now, 0.0, 1.0));

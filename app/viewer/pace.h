@@ -18,7 +18,7 @@ class Pace {
     return static_cast<double>(rest) <= kOverrun * fit ? rest : static_cast<std::size_t>(fit);
   }
   /// How long this many will take [s]; infinite while nothing is known.
-  double seconds(std::size_t units) const { return static_cast<double>(units) / rate_; }
+  double seconds(std::size_t units) const { return units == 0 ? 0 : static_cast<double>(units) / rate_; }
   void note(std::size_t units, double seconds) {
     const double rate = static_cast<double>(units) / std::max(seconds, 1e-9);
     rate_ = rate_ == 0 ? rate : (rate_ + rate) / 2;

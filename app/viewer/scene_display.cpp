@@ -14,6 +14,7 @@ constexpr double kArrivedStops = 0.01;
 constexpr double kJumpStops = 6;
 constexpr std::size_t kFewestPieces = 10'000;
 constexpr std::size_t kFewestRows = 64;
+constexpr std::size_t kFewestBytes = 1 << 20;
 
 bool same(const Camera& a, const Camera& b) {
   return a.eye == b.eye && a.at == b.at && a.up == b.up && a.fov_deg == b.fov_deg;
@@ -45,7 +46,7 @@ void SceneDisplay::setSnapshot(std::shared_ptr<const Snapshot> snapshot) {
   drawn_.reset();
   sampled_.reset();
   making_.reset();
-  if (snapshot_) view_.setSnapshot(*snapshot_);
+  if (snapshot_) view_.beginSnapshot(snapshot_);
 }
 
 void SceneDisplay::startFraming(double aspect) {
@@ -66,8 +67,8 @@ std::optional<Camera> SceneDisplay::continueFraming(std::optional<double> second
   return found;
 }
 
-bool SceneDisplay::stale(const Wanted& wanted) const {
-  return !drawn_ || gliding_ || !sameSamples(*drawn_, wanted) ||
+bool SceneDisplay::differs(const Wanted& wanted) const {
+  return !drawn_ || !sameSamples(*drawn_, wanted) ||
          drawn_->settings.view.exposure_ev != wanted.settings.view.exposure_ev ||
          drawn_->settings.exposure_locked != wanted.settings.exposure_locked;
 }
@@ -104,18 +105,20 @@ bool SceneDisplay::draw(const Wanted& wanted, double seconds, double deadline) {
                   making_->wanted.height != wanted.height)) {
     making_.reset();
   }
-  if (!making_ && !stale(wanted)) {
+  if (!outdated(wanted) && !gliding_) {
     glide_seconds_ = 0;
     return false;
   }
   glide_seconds_ = seconds < 0 || glide_seconds_ < 0 ? -1 : glide_seconds_ + seconds;
   const StateGuard guard(context_.functions());
+  if (!upload(deadline)) return true;
   if (!making_) begin(wanted);
   deadline = extended(deadline);
   if (!drawSamples(deadline)) return true;
   if (making_->row == 0) expose();
   if (!showRows(deadline)) return true;
   std::swap(shown_, next_);
+  ++version_;
   drawn_ = making_->wanted;
   shown_camera_ = drawn_->camera;
   making_.reset();
@@ -135,12 +138,25 @@ void SceneDisplay::begin(const Wanted& wanted) {
   samples_ = LinearTarget(context_, width, height);
 }
 
+/// Sends what the snapshot still has to send until it is done or time is up. Returns whether it is done.
+bool SceneDisplay::upload(double deadline) {
+  double now = wallSeconds();
+  for (std::size_t rest; (rest = view_.uploadBytes()) > 0;) {
+    const std::size_t bytes = deadline == kAtOnce ? rest : bytes_.next(deadline - now, rest, kFewestBytes);
+    view_.upload(bytes);
+    const double start = std::exchange(now, wallSeconds());
+    bytes_.note(bytes, now - start);
+    if (now >= deadline) break;
+  }
+  return view_.uploadBytes() == 0;
+}
+
 /// Later by as much as it takes to end the picture, if that is little.
 double SceneDisplay::extended(double deadline) {
   if (deadline == kAtOnce) return deadline;
   const bool drawn = sampled(making_->wanted);
   const std::size_t pieces = drawn ? 0 : view_.pieceCount(viewOf(making_->wanted)) - making_->piece;
-  const double rest = (pieces > 0 ? pieces_.seconds(pieces) : 0) +
+  const double rest = pieces_.seconds(pieces) +
                       rows_.seconds(static_cast<std::size_t>(making_->wanted.height - making_->row));
   const double now = wallSeconds(), most = Pace::kOverrun * (deadline - now);
   return rest <= most ? now + most : deadline;
@@ -229,6 +245,7 @@ void SceneDisplay::sharpen(int samples, double deadline) {
     view_.resolve(band_, exposure_, viewOf(finer), {0, bottom, width, top - bottom});
   }
   ++next_band_;
+  ++version_;
   band_piece_ = 0;
 }
 

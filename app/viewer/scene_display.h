@@ -2,10 +2,11 @@
 // something has changed, with an exposure that glides; and the search for a first camera, a little in each
 // frame.
 //
-// Where drawing takes longer than a frame may, it goes on over several: triangles, then rows of pixels, until
-// the picture is whole. The one before is shown meanwhile.
+// Where this takes longer than a window may be held up, it goes on in slices: the snapshot's upload,
+// triangles, then rows of pixels, until the picture is whole. The one before is shown meanwhile.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -28,7 +29,7 @@ class SceneDisplay {
  public:
   explicit SceneDisplay(gl::Context& context);
 
-  /// Uploads it. Null: nothing to show.
+  /// From now on pictures are of this one, which draw() uploads first. Null: nothing to show.
   void setSnapshot(std::shared_ptr<const Snapshot> snapshot);
   const std::shared_ptr<const Snapshot>& snapshot() const { return snapshot_; }
   bool empty() const { return !snapshot_; }
@@ -53,8 +54,10 @@ class SceneDisplay {
   /// One that was begun is finished first, as it was wanted then. `seconds` since the last call are for the
   /// glide of the exposure (negative: no glide). Returns whether there was anything to do.
   bool draw(const Wanted& wanted, double seconds, double deadline);
-  /// Whether a picture was begun and is not yet shown.
-  bool drawing() const { return making_.has_value(); }
+  /// Whether draw() would have something to do, not counting a glide of the exposure.
+  bool outdated(const Wanted& wanted) const { return drawing() || differs(wanted); }
+  /// Whether a picture, or the upload for it, was begun and the picture is not yet shown.
+  bool drawing() const { return making_ || view_.uploadBytes() > 0; }
   /// Whether the picture shown was drawn for itself, not only exposed anew.
   bool drawnAnew() const { return drawn_anew_; }
   /// The camera of the picture that is shown; that of the viewer may be ahead.
@@ -63,7 +66,9 @@ class SceneDisplay {
   /// software renderer smooths edges without holding the window up. To the end of a band or to `deadline`.
   void sharpen(int samples, double deadline);
   /// Whether nothing is left to sharpen.
-  bool sharp() const { return !drawn_ || making_ || next_band_ >= kBands; }
+  bool sharp() const { return !drawn_ || drawing() || next_band_ >= kBands; }
+  /// Another number whenever the picture shown has changed.
+  std::uint64_t version() const { return version_; }
   /// Copies the picture to the bound draw framebuffer, its lower left at (x, y).
   void copyTo(int x, int y) const;
 
@@ -88,10 +93,11 @@ class SceneDisplay {
     int row = 0;            // the first that is not exposed
   };
 
-  bool stale(const Wanted& wanted) const;
+  bool differs(const Wanted& wanted) const;
   bool sampled(const Wanted& wanted) const;
   void begin(const Wanted& wanted);
   double extended(double deadline);
+  bool upload(double deadline);
   bool drawSamples(double deadline);
   void expose();
   bool showRows(double deadline);
@@ -111,7 +117,8 @@ class SceneDisplay {
   std::optional<double> metered_;          // of samples_
   Camera shown_camera_;
   bool drawn_anew_ = false;
-  Pace pieces_, rows_;
+  std::uint64_t version_ = 0;
+  Pace bytes_, pieces_, rows_;
   LinearTarget band_;
   int next_band_ = 0;
   std::size_t band_piece_ = 0;

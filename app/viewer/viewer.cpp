@@ -16,19 +16,8 @@ namespace unshot {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kFrameSeconds = 1.0 / 60;
-constexpr double kSnapshotSeconds = 1.0 / 30;
-// New light is drawn so seldom that the solver keeps most of a machine whose CPU draws.
-constexpr double kSoftwareShare = 4;  // times the cost of a frame
-constexpr double kRestSeconds = 0.2;  // without motion, before the picture is sharpened
-// In software a frame spends this long on the scene and then answers, whole picture or not.
-constexpr double kSceneSeconds = 0.018;
-constexpr double kFramingSeconds = 0.01;
 constexpr double kNoticeSeconds = 4;
 constexpr double kRateWindow = 1;
-constexpr float kBackground = 26 / 255.0f;  // that of the pictures
-
-bool idle(SessionPhase phase) { return phase != SessionPhase::kRunning && phase != SessionPhase::kLoading; }
 
 }  // namespace
 
@@ -61,7 +50,7 @@ void Viewer::setScale(double scale) {
   scale_ = scale;
   applyTheme(ImGui::GetIO(), ImGui::GetStyle(), static_cast<float>(scale));
   gui_.setFonts(*ImGui::GetIO().Fonts);
-  input();
+  damaged();
 }
 
 // What happens.
@@ -239,156 +228,11 @@ void Viewer::runScript(double now) {
   }
 }
 
-// Frames.
-
 double Viewer::nextUpdate() const {
   double next = notice_.empty() ? kNever : notice_until_;
   if (script_at_ < script_.size() && script_[script_at_].wait == WaitFor::kSeconds && wait_began_ >= 0)
     next = std::min(next, wait_began_ + script_[script_at_].amount);
   return next;
-}
-
-double Viewer::nextFrame(double now) const {
-  const double soon = last_frame_ + kFrameSeconds;
-  if (closing_) return now;
-  if (gui_frames_ > 0 || !captures_.empty() || navigator_.moving() || scene_.gliding() || scene_.framing() ||
-      (scene_.drawing() && sceneStands()) || (frame_wanted_ && state_->snapshot))
-    return soon;
-  if (state_->snapshot != scene_.snapshot()) {
-    const double share = renderer().hardware ? 1 : kSoftwareShare;
-    return std::max(last_frame_ + kSnapshotSeconds, last_frame_end_ + share * frame_cost_);
-  }
-  if (mayBeSharpened(kNever)) return std::max(soon, last_motion_ + kRestSeconds);
-  return kNever;
-}
-
-bool Viewer::mayBeSharpened(double now) const {
-  return idle(state_->phase) && !scene_.empty() && !scene_.sharp() && !scene_.framing() &&
-         !navigator_.moving() && now >= last_motion_ + kRestSeconds;
-}
-
-void Viewer::navigate(double seconds, int scene_width, int scene_height) {
-  const ImGuiIO& io = ImGui::GetIO();
-  const Camera before = navigator_.camera();
-  if (!io.WantCaptureMouse && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
-    const glm::dvec2 motion(io.MouseDelta.x, io.MouseDelta.y);
-    if (io.MouseDown[ImGuiMouseButton_Middle] || (io.MouseDown[ImGuiMouseButton_Left] && io.KeyShift)) {
-      navigator_.pan(motion, scene_height);
-    } else if (io.MouseDown[ImGuiMouseButton_Left]) {
-      navigator_.orbit(motion, scene_height);
-    } else if (io.MouseDown[ImGuiMouseButton_Right]) {
-      navigator_.look(motion, scene_height);
-    }
-  }
-  if (!io.WantCaptureMouse && io.MouseWheel != 0) {
-    if (io.MouseDown[ImGuiMouseButton_Right]) {
-      navigator_.scaleSpeed(std::pow(1.25, io.MouseWheel));
-      notice("flying " + std::string(io.MouseWheel > 0 ? "faster" : "slower"));
-    } else {
-      navigator_.zoom(io.MouseWheel);
-    }
-  }
-  glm::dvec3 direction(0.0);
-  if (!io.WantTextInput && !io.KeyCtrl) {
-    const auto axis = [&](int plus, int minus) {
-      return (io.KeysDown[plus] ? 1.0 : 0.0) - (io.KeysDown[minus] ? 1.0 : 0.0);
-    };
-    direction = {axis('D', 'A'), axis('E', 'Q'), axis('W', 'S')};
-  }
-  navigator_.fly(direction, io.KeyShift);
-  navigator_.advance(seconds);
-  const Camera& after = navigator_.camera();
-  if (before.eye != after.eye || before.at != after.at) {
-    last_motion_ = last_frame_;
-  }
-  if (frame_wanted_ && scene_.snapshot() == state_->snapshot && state_->snapshot &&
-      (state_->measures.shots > 0 || idle(state_->phase))) {
-    frame_wanted_ = false;
-    framed_scene_ = state_->facts->scene_path;
-    scene_.startFraming(static_cast<double>(std::max(scene_width, 1)) / std::max(scene_height, 1));
-  }
-  if (const auto camera = scene_.continueFraming(kFramingSeconds)) {
-    const Mesh& mesh = *scene_.snapshot()->mesh;
-    navigator_.reset(*camera, {mesh.bounds_min, mesh.bounds_max});
-    scene_.snapExposure();
-    last_motion_ = last_frame_;
-    input();
-  }
-}
-
-/// A scene without its camera is not shown: the picture of the one before stays.
-bool Viewer::sceneStands() const {
-  return !scene_.empty() && !scene_.framing() && state_->facts && framed_scene_ == state_->facts->scene_path;
-}
-
-double Viewer::deadline() const {
-  return renderer().hardware ? SceneDisplay::kAtOnce : last_frame_ + kSceneSeconds;
-}
-
-void Viewer::takeSnapshot() {
-  if (state_->snapshot == scene_.snapshot()) return;
-  // What is half drawn is of one state; the next picture shows the new one.
-  const bool same_mesh =
-      state_->snapshot && scene_.snapshot() && state_->snapshot->mesh == scene_.snapshot()->mesh;
-  if (same_mesh && scene_.drawing()) return;
-  try {
-    scene_.setSnapshot(state_->snapshot);
-  } catch (const Error& error) {  // too large for the driver: the picture before stays
-    fail(error);
-  }
-}
-
-void Viewer::draw(GLuint framebuffer, int width, int height) {
-  const double now = wallSeconds();
-  const double seconds = std::min(now - last_frame_, 0.1);
-  last_frame_ = now;
-  if (gui_frames_ > 0) --gui_frames_;
-  takeSnapshot();
-  const int scene_width = width - panelWidth(ui_, scale_, width);
-  ImGui::NewFrame();
-  navigate(seconds, scene_width, height);
-  buildSidePanel(*this, scene_width);
-  buildOverlays(*this, scene_width, notice_, scene_.framing() || frame_wanted_);
-  ImGui::Render();
-
-  drew_scene_ = false;
-  if (sceneStands()) {
-    const bool hardware = renderer().hardware;
-    drew_scene_ = scene_.draw({navigator_.camera(), ui_.settings, scene_width, height, hardware ? 2 : 1},
-                              seconds, deadline());
-    if (!drew_scene_ && mayBeSharpened(now)) scene_.sharpen(hardware ? 3 : 2, deadline());
-  }
-  paint(framebuffer, width, height, true);
-  // ImGui shows a new window one frame late.
-  if (!captures_.empty() && gui_frames_ == 0) {
-    const Capture next = captures_.front();
-    captures_.pop_front();
-    capture(next, width, height, scene_width);
-  }
-  gl::checkErrors(setup_.display->functions(), "drawing a frame of the viewer");
-}
-
-void Viewer::presented() {
-  last_frame_end_ = wallSeconds();
-  if (!drew_scene_) return;
-  picture_cost_ += last_frame_end_ - last_frame_;
-  if (scene_.drawing()) return;
-  const double cost = std::exchange(picture_cost_, 0);
-  if (!scene_.drawnAnew()) return;
-  frame_cost_ = frame_cost_ == 0 ? cost : 0.8 * frame_cost_ + 0.2 * cost;
-  // What would not be shown need not be made.
-  const double share = renderer().hardware ? 1 : kSoftwareShare;
-  session_.setPublishInterval(std::max(kSnapshotSeconds, share * frame_cost_));
-}
-
-void Viewer::paint(GLuint framebuffer, int width, int height, bool gui) {
-  const gl::Functions& fn = setup_.display->functions();
-  fn.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  fn.Viewport(0, 0, width, height);
-  fn.ClearColor(kBackground, kBackground, kBackground, 1);
-  fn.Clear(GL_COLOR_BUFFER_BIT);
-  scene_.copyTo(0, 0);
-  if (gui) gui_.draw(*ImGui::GetDrawData(), width, height);
 }
 
 }  // namespace unshot

@@ -2,7 +2,12 @@
 // panels.
 //
 // A host (window.h, offscreen.h) owns the contexts and the inputs: it feeds ImGui's IO, calls update() when
-// something may have happened, and draw() when nextFrame() says so. All calls come from the main thread.
+// something may have happened, and when nextFrame() says so prepare() and, where that asks for it, draw().
+// All calls come from the main thread.
+//
+// In software a picture of the scene takes longer than a window may be deaf. It is made in slices of
+// prepare(), between which the host looks for inputs; what these change is drawn over the picture before at
+// once.
 #pragma once
 
 #include <deque>
@@ -61,15 +66,21 @@ class Viewer {
 
   /// Takes the session's newest state and runs what the script has next.
   void update(double now);
-  /// When the next frame is wanted: at most `now` for at once, infinity for not before something happens.
+  /// When prepare() is wanted: at most `now` for at once, infinity for not before something happens.
   double nextFrame(double now) const;
+  /// Goes on with the picture of the scene for a few milliseconds, unless the window waits for a frame.
+  /// Returns whether draw() is to follow.
+  bool prepare();
   /// When update() is wanted without an event.
   double nextUpdate() const;
   /// Builds the GUI from ImGui's IO (whose display size it takes) and draws the window's content into
-  /// `framebuffer`.
-  void draw(GLuint framebuffer, int width, int height);
+  /// `framebuffer`. Returns false where that looks as it did before: then nothing was drawn, and what is on
+  /// the screen stays there.
+  bool draw(GLuint framebuffer, int width, int height);
   /// What draw() drew is on the screen.
   void presented();
+  /// What was on the screen is lost: the next frame is drawn, however it looks.
+  void damaged();
   /// Something was typed or moved: the next frames react.
   void input() { gui_frames_ = kFramesAfterInput; }
   /// A key went down that no text field wants.
@@ -92,6 +103,7 @@ class Viewer {
   const Camera& camera() const { return navigator_.camera(); }
   /// Of the scene as it is shown, which a slow renderer draws over several frames.
   const Camera& shownCamera() const { return scene_.shownCamera(); }
+  const std::shared_ptr<const Snapshot>& shownSnapshot() const { return scene_.snapshot(); }
   bool drawingScene() const { return scene_.drawing(); }
   double scale() const { return scale_; }
   double exposure() const { return scene_.exposure(); }
@@ -131,6 +143,14 @@ class Viewer {
     std::filesystem::path path;
     bool with_panels = true;
   };
+  /// All that a frame looks by.
+  struct PaintedLook {
+    GLuint framebuffer;
+    int width, height;
+    std::uint64_t scene;  ///< SceneDisplay::version
+    std::size_t gui;      ///< fingerprint
+    bool operator==(const PaintedLook&) const = default;
+  };
   struct RatePoint {
     double time;
     std::uint64_t shots, rows;
@@ -142,11 +162,16 @@ class Viewer {
   bool waitIsOver(const ScriptLine& line, double now);
   bool settled() const;
   void fail(const Error& error);
-  void navigate(double seconds, int scene_width, int scene_height);
+  void navigate(double seconds);
   bool mayBeSharpened(double now) const;
-  void takeSnapshot();
+  double nextPaint() const;
+  double nextSceneWork() const;
+  double nextSnapshot() const;
+  void takeSnapshot(double now);
   bool sceneStands() const;
-  double deadline() const;
+  SceneDisplay::Wanted wanted() const;
+  bool frame();
+  bool drawScene(double now, double deadline);
   void paint(GLuint framebuffer, int width, int height, bool gui);
   void capture(const Capture& wanted, int width, int height, int scene_width);
   std::filesystem::path newPictureName() const;
@@ -167,9 +192,13 @@ class Viewer {
   // Frames.
   int gui_frames_ = kFramesAfterInput;
   double last_frame_ = 0, last_frame_end_ = 0, last_motion_ = 0;
-  double frame_cost_ = 0;    // of the frames of a picture of the scene [s]
-  double picture_cost_ = 0;  // of the one being drawn, so far
-  bool drew_scene_ = false;
+  double last_picture_ = 0;                      // when a picture of the scene was shown
+  double last_scene_ = 0, last_scene_work_ = 0;  // begin and end of the last work on the scene
+  int scene_width_ = 0, scene_height_ = 0;       // [px]
+  double frame_cost_ = 0;                        // of a picture of the scene and the frame that shows it [s]
+  double picture_cost_ = 0;                      // of the one being drawn, so far
+  std::optional<PaintedLook> painted_;
+  bool drew_scene_ = false;  // since the last frame
 
   // The scene shown.
   std::filesystem::path framed_scene_;  // the camera is for this one

@@ -34,8 +34,8 @@ void setCallbacks(GLFWwindow* window) {
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int, int, int) { viewerOf(w).input(); });
   glfwSetScrollCallback(window, [](GLFWwindow* w, double, double) { viewerOf(w).input(); });
   glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int) { viewerOf(w).input(); });
-  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { viewerOf(w).input(); });
-  glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { viewerOf(w).input(); });
+  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { viewerOf(w).damaged(); });
+  glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { viewerOf(w).damaged(); });
   glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float x, float) { viewerOf(w).setScale(x); });
   glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
     if (count > 0) viewerOf(w).perform("open", paths[0]);
@@ -77,9 +77,9 @@ void runLoop(Viewer& viewer, GLFWwindow* window) {
     if (viewer.closing()) return;
     int width = 0, height = 0;
     glfwGetFramebufferSize(window, &width, &height);
-    if (width <= 0 || height <= 0 || viewer.nextFrame(now) > now) continue;
+    if (width <= 0 || height <= 0 || viewer.nextFrame(now) > now || !viewer.prepare()) continue;
     ImGui_ImplGlfw_NewFrame();
-    viewer.draw(0, width, height);
+    if (!viewer.draw(0, width, height)) continue;
     glfwSwapBuffers(window);
     viewer.presented();
   }

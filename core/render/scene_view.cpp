@@ -27,46 +27,25 @@ float finiteValue(double v) {
   return std::isfinite(v) ? static_cast<float>(std::clamp(v, -kLargestValue, kLargestValue)) : 0.0f;
 }
 
-glm::vec3 finiteValue(const glm::dvec3& v) { return {finiteValue(v.x), finiteValue(v.y), finiteValue(v.z)}; }
-
-// `count` values, whatever the snapshot holds (an empty field counts as 0).
-std::vector<glm::vec3> finiteValues(const std::vector<glm::vec3>& field, std::size_t count) {
-  std::vector<glm::vec3> values(count, glm::vec3(0.0f));
-  for (std::size_t i = 0; i < std::min(count, field.size()); ++i)
-    values[i] = finiteValue(glm::dvec3(field[i]));
-  return values;
+glm::vec4 finiteTexel(const glm::dvec3& v) {
+  return {finiteValue(v.x), finiteValue(v.y), finiteValue(v.z), 0.0f};
 }
 
-// The same for a texture of elements.
-std::vector<glm::vec4> finiteTexels(const std::vector<glm::vec3>& field, std::size_t count) {
-  std::vector<glm::vec4> values(std::max<std::size_t>(count, 1), glm::vec4(0.0f));
-  for (std::size_t i = 0; i < std::min(count, field.size()); ++i)
-    values[i] = glm::vec4(finiteValue(glm::dvec3(field[i])), 0.0f);
-  return values;
-}
-
-template <class T>
-void upload(const gl::Functions& fn, const gl::Buffer& buffer, const std::vector<T>& values, GLenum usage) {
+void allocate(const gl::Functions& fn, const gl::Buffer& buffer, std::size_t bytes, GLenum usage) {
   // The binding point says nothing about the use; this one disturbs no vertex array.
   fn.BindBuffer(GL_COPY_WRITE_BUFFER, buffer.id());
-  fn.BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data(),
-                usage);
+  fn.BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, usage);
   fn.BindBuffer(GL_COPY_WRITE_BUFFER, 0);
 }
 
+// Room for values that do not change, and their way there.
 template <class T>
-void update(const gl::Functions& fn, const gl::Buffer& buffer, const std::vector<T>& values) {
-  if (values.empty()) return;
-  fn.BindBuffer(GL_COPY_WRITE_BUFFER, buffer.id());
-  fn.BufferSubData(GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(values.size() * sizeof(T)),
-                   values.data());
-  fn.BindBuffer(GL_COPY_WRITE_BUFFER, 0);
-}
-
-void allocate(const gl::Functions& fn, const gl::Buffer& buffer, std::size_t bytes) {
-  fn.BindBuffer(GL_COPY_WRITE_BUFFER, buffer.id());
-  fn.BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, GL_DYNAMIC_DRAW);
-  fn.BindBuffer(GL_COPY_WRITE_BUFFER, 0);
+void sendAll(Uploads& uploads, const gl::Buffer& buffer, std::shared_ptr<const std::vector<T>> values) {
+  allocate(buffer.fn(), buffer, values->size() * sizeof(T), GL_STATIC_DRAW);
+  const std::size_t count = values->size();
+  uploads.add<T>(buffer, count, [values = std::move(values)](std::size_t first, std::size_t n, T* out) {
+    std::copy_n(values->data() + first, n, out);
+  });
 }
 
 void attribute(const gl::Functions& fn, GLuint location, const gl::Buffer& buffer, std::size_t stride,
@@ -122,41 +101,43 @@ SceneView::SceneView(gl::Context& context)
       element_direct_texture_(context) {}
 
 void SceneView::setSnapshot(const Snapshot& snapshot) {
-  const gl::Functions& fn = context_.functions();
-  const bool fresh = snapshot.mesh != mesh_;
-  if (fresh) {
-    uploadMesh(*snapshot.mesh);
-    mesh_ = snapshot.mesh;
-    bounds_ = {mesh_->bounds_min, mesh_->bounds_max};
+  // It is here for as long as the upload takes.
+  beginSnapshot(std::shared_ptr<const Snapshot>(std::shared_ptr<void>(), &snapshot));
+  upload(uploadBytes());
+}
+
+void SceneView::beginSnapshot(const std::shared_ptr<const Snapshot>& snapshot) {
+  // Where fields were given up half way, it is not known what is there.
+  bool all = !field_uploads_.done();
+  field_uploads_.clear();
+  if (snapshot->mesh != mesh_) {
+    beginMesh(snapshot->mesh);
+    all = true;
   }
-  const std::size_t count = mesh_->vertices.size();
-  update(fn, irradiance_, finiteValues(snapshot.irradiance, count));
-  update(fn, ambient_, finiteValues(snapshot.ambient, count));
-  update(fn, unshot_, finiteValues(snapshot.unshot, count));
-  update(fn, element_irradiance_, finiteTexels(snapshot.element_irradiance, mesh_->element_count));
-  if (fresh || snapshot.direct != direct_field_ || snapshot.element_direct != element_direct_field_)
-    uploadDirect(snapshot);
-  uploadShared(fresh, bounces_, bounces_field_, snapshot.bounces);
-  uploadShared(fresh, residual_, residual_field_, snapshot.residual);
+  const auto own = [&](const std::vector<glm::vec3>& field) {
+    return std::shared_ptr<const std::vector<glm::vec3>>(snapshot, &field);
+  };
+  const std::size_t vertices = mesh_->vertices.size(), elements = mesh_->element_count;
+  field_uploads_.add<glm::vec3>(irradiance_, vertices, finiteValues<glm::vec3>(own(snapshot->irradiance)));
+  field_uploads_.add<glm::vec3>(ambient_, vertices, finiteValues<glm::vec3>(own(snapshot->ambient)));
+  field_uploads_.add<glm::vec3>(unshot_, vertices, finiteValues<glm::vec3>(own(snapshot->unshot)));
+  field_uploads_.add<glm::vec4>(element_irradiance_, elements,
+                                finiteValues<glm::vec4>(own(snapshot->element_irradiance)));
+  const auto shared = [&]<class Value>(const gl::Buffer& buffer, std::size_t count, SharedField& uploaded,
+                                       const SharedField& field, Value) {
+    if (all || uploaded != field) field_uploads_.add<Value>(buffer, count, finiteValues<Value>(field));
+    uploaded = field;
+  };
+  shared(direct_, vertices, direct_field_, snapshot->direct, glm::vec3());
+  shared(element_direct_, elements, element_direct_field_, snapshot->element_direct, glm::vec4());
+  shared(bounces_, vertices, bounces_field_, snapshot->bounces, glm::vec3());
+  shared(residual_, vertices, residual_field_, snapshot->residual, glm::vec3());
 }
 
-void SceneView::uploadShared(bool fresh, const gl::Buffer& buffer,
-                             std::shared_ptr<const std::vector<glm::vec3>>& uploaded,
-                             const std::shared_ptr<const std::vector<glm::vec3>>& field) {
-  static const std::vector<glm::vec3> kNothing;
-  if (!fresh && uploaded == field) return;
-  update(context_.functions(), buffer, finiteValues(field ? *field : kNothing, mesh_->vertices.size()));
-  uploaded = field;
-}
-
-void SceneView::uploadDirect(const Snapshot& snapshot) {
-  static const std::vector<glm::vec3> kNothing;
-  const gl::Functions& fn = context_.functions();
-  update(fn, direct_, finiteValues(snapshot.direct ? *snapshot.direct : kNothing, mesh_->vertices.size()));
-  update(fn, element_direct_,
-         finiteTexels(snapshot.element_direct ? *snapshot.element_direct : kNothing, mesh_->element_count));
-  direct_field_ = snapshot.direct;
-  element_direct_field_ = snapshot.element_direct;
+void SceneView::upload(std::size_t bytes) {
+  const std::size_t mesh_bytes = std::min(bytes, mesh_uploads_.bytes());
+  mesh_uploads_.some(mesh_bytes);
+  if (mesh_uploads_.done()) field_uploads_.some(bytes - mesh_bytes);
 }
 
 const gl::Buffer* SceneView::extraField(Quantity quantity) const {
@@ -165,19 +146,30 @@ const gl::Buffer* SceneView::extraField(Quantity quantity) const {
   return quantity == Quantity::kResidual ? &residual_ : nullptr;
 }
 
-void SceneView::uploadMesh(const Mesh& mesh) {
+void SceneView::beginMesh(const std::shared_ptr<const Mesh>& shared_mesh) {
   const gl::Functions& fn = context_.functions();
+  const Mesh& mesh = *shared_mesh;
   checkTexels(
       fn, std::max({mesh.triangle_element.size(), std::size_t{mesh.element_count}, 2 * mesh.sides.size()}));
+  mesh_uploads_.clear();
+  mesh_ = shared_mesh;
+  bounds_ = {mesh.bounds_min, mesh.bounds_max};
+  const auto own = [&]<class T>(const std::vector<T>& values) {
+    return std::shared_ptr<const std::vector<T>>(shared_mesh, &values);
+  };
 
-  std::vector<GpuVertex> vertices;
-  vertices.reserve(mesh.vertices.size());
-  for (const Vertex& v : mesh.vertices) vertices.push_back({v.position, v.normal, v.side});
-  upload(fn, vertices_, vertices, GL_STATIC_DRAW);
-  for (const gl::Buffer* field : {&irradiance_, &direct_, &ambient_, &unshot_, &bounces_, &residual_}) {
-    allocate(fn, *field, mesh.vertices.size() * sizeof(glm::vec3));
-  }
-  upload(fn, triangles_, mesh.triangle_vertices, GL_STATIC_DRAW);
+  const std::size_t vertices = mesh.vertices.size();
+  allocate(fn, vertices_, vertices * sizeof(GpuVertex), GL_STATIC_DRAW);
+  mesh_uploads_.add<GpuVertex>(vertices_, vertices,
+                               [shared_mesh](std::size_t first, std::size_t count, GpuVertex* out) {
+                                 for (std::size_t k = 0; k < count; ++k) {
+                                   const Vertex& v = shared_mesh->vertices[first + k];
+                                   out[k] = {v.position, v.normal, v.side};
+                                 }
+                               });
+  for (const gl::Buffer* field : {&irradiance_, &direct_, &ambient_, &unshot_, &bounces_, &residual_})
+    allocate(fn, *field, vertices * sizeof(glm::vec3), GL_DYNAMIC_DRAW);
+  sendAll(mesh_uploads_, triangles_, own(mesh.triangle_vertices));
   triangle_index_count_ = static_cast<GLsizei>(mesh.triangle_vertices.size());
   edges_uploaded_ = false;
 
@@ -192,15 +184,16 @@ void SceneView::uploadMesh(const Mesh& mesh) {
   fn.BindBuffer(GL_ARRAY_BUFFER, 0);
   fn.BindVertexArray(0);
 
-  std::vector<glm::vec4> sides(std::max<std::size_t>(2 * mesh.sides.size(), 1), glm::vec4(0.0f));
+  auto sides = std::make_shared<std::vector<glm::vec4>>(std::max<std::size_t>(2 * mesh.sides.size(), 1),
+                                                        glm::vec4(0.0f));
   for (std::size_t i = 0; i < mesh.sides.size(); ++i) {
-    sides[2 * i] = glm::vec4(finiteValue(mesh.sides[i].reflectance), 0.0f);
-    sides[2 * i + 1] = glm::vec4(finiteValue(mesh.sides[i].emission), 0.0f);
+    (*sides)[2 * i] = finiteTexel(mesh.sides[i].reflectance);
+    (*sides)[2 * i + 1] = finiteTexel(mesh.sides[i].emission);
   }
-  upload(fn, sides_, sides, GL_STATIC_DRAW);
-  upload(fn, triangle_elements_, mesh.triangle_element, GL_STATIC_DRAW);
+  sendAll<glm::vec4>(mesh_uploads_, sides_, std::move(sides));
+  sendAll(mesh_uploads_, triangle_elements_, own(mesh.triangle_element));
   for (const gl::Buffer* field : {&element_irradiance_, &element_direct_}) {
-    allocate(fn, *field, std::max<std::size_t>(mesh.element_count, 1) * sizeof(glm::vec4));
+    allocate(fn, *field, std::max<std::size_t>(mesh.element_count, 1) * sizeof(glm::vec4), GL_DYNAMIC_DRAW);
   }
   const auto attach = [&](const gl::Texture& texture, GLenum format, const gl::Buffer& buffer) {
     fn.BindTexture(GL_TEXTURE_BUFFER, texture.id());
@@ -216,7 +209,11 @@ void SceneView::uploadMesh(const Mesh& mesh) {
 void SceneView::uploadEdges() {
   if (edges_uploaded_) return;
   const std::vector<std::uint32_t> pairs = elementEdges(*mesh_);
-  upload(context_.functions(), edges_, pairs, GL_STATIC_DRAW);
+  const gl::Functions& fn = context_.functions();
+  fn.BindBuffer(GL_COPY_WRITE_BUFFER, edges_.id());
+  fn.BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(pairs.size() * sizeof(pairs[0])), pairs.data(),
+                GL_STATIC_DRAW);
+  fn.BindBuffer(GL_COPY_WRITE_BUFFER, 0);
   edge_index_count_ = static_cast<GLsizei>(pairs.size());
   edges_uploaded_ = true;
 }

@@ -14,6 +14,7 @@
 #include "render/camera.h"
 #include "render/display_modes.h"
 #include "render/targets.h"
+#include "render/uploads.h"
 #include "session/snapshot.h"
 
 namespace unshot {
@@ -51,6 +52,12 @@ class SceneView {
   /// is another object than before. Values that are not finite are
   /// drawn as 0. Throws Error kEnvironment where the mesh is too large for the driver.
   void setSnapshot(const Snapshot& snapshot);
+  /// The same in parts: begins it, giving up what is not yet done of the snapshot before. Nothing may be
+  /// drawn until upload() has sent uploadBytes().
+  void beginSnapshot(const std::shared_ptr<const Snapshot>& snapshot);
+  /// About so many more bytes.
+  void upload(std::size_t bytes);
+  std::size_t uploadBytes() const { return mesh_uploads_.bytes() + field_uploads_.bytes(); }
 
   /// Draws into `viewport` of the bound framebuffer, in one rendering, and returns the automatic exposure:
   /// the factor from linear values to about 1 for white, without exposure_ev.
@@ -77,11 +84,9 @@ class SceneView {
                const Viewport& viewport, int first_row = 0);
 
  private:
-  void uploadMesh(const Mesh& mesh);
-  void uploadDirect(const Snapshot& snapshot);
-  void uploadShared(bool fresh, const gl::Buffer& buffer,
-                    std::shared_ptr<const std::vector<glm::vec3>>& uploaded,
-                    const std::shared_ptr<const std::vector<glm::vec3>>& field);
+  using SharedField = std::shared_ptr<const std::vector<glm::vec3>>;
+
+  void beginMesh(const std::shared_ptr<const Mesh>& mesh);
   /// The buffer with what this quantity shows besides the light; null where that is all.
   const gl::Buffer* extraField(Quantity quantity) const;
   void uploadEdges();
@@ -91,8 +96,8 @@ class SceneView {
 
   gl::Context& context_;
   std::shared_ptr<const Mesh> mesh_;
-  std::shared_ptr<const std::vector<glm::vec3>> direct_field_, element_direct_field_, bounces_field_,
-      residual_field_;  // as uploaded
+  Uploads mesh_uploads_, field_uploads_;
+  SharedField direct_field_, element_direct_field_, bounces_field_, residual_field_;  // as uploaded
   Bounds bounds_;
   gl::Program display_program_, by_pixel_program_, resolve_program_;
   gl::VertexArray vertex_array_, no_attributes_;

@@ -20,7 +20,7 @@
 namespace unshot {
 
 /// The errors that tables are made for.
-inline constexpr double kErrorLevels[] = {0.1, 0.03, 0.01, 0.003};
+inline constexpr double kErrorLevels[] = {0.1, 0.03, 0.01, 0.003, 0.001};
 
 struct SolverError {
   double nrmse = 0;  ///< RMS(B - B*) / RMS(B* - E)

@@ -101,7 +101,7 @@ std::string formFactorShare(const CurveRecord& record) {
 
 std::vector<std::string> whoWins(const CurveRecord& record) {
   std::vector<std::string> out;
-  for (const double level : {0.1, 0.01}) {
+  for (const double level : {0.1, 0.01, 0.001}) {
     for (const std::string& text : {perRow(record, level), perSecond(record, level)}) {
       if (!text.empty() && (out.empty() || out.back() != text)) out.push_back(text);
     }

@@ -54,9 +54,22 @@ struct Times {
 };
 
 struct Frames {
-  Times window;   ///< a frame of the window, drawn to its end
-  Times picture;  ///< from the begin of a picture of the scene until a frame shows it
+  Times answer;   ///< from a motion of the mouse to the end of the window's frame that knows of it
+  Times picture;  ///< from the motion that a picture of the scene is of until a frame shows it
 };
+
+/// Rests, or lets the viewer work on the picture, until it is time to draw the window.
+void untilFrame(LiveViewer& live) {
+  for (;;) {
+    const double now = wallSeconds(), next = live->nextFrame(now);
+    if (next > now) {
+      live.rest(next - now);
+    } else if (live->prepare()) {
+      return;
+    }
+    live->update(wallSeconds());
+  }
+}
 
 /// Frames as fast as the viewer asks for them.
 Frames dragFor(LiveViewer& live, double seconds) {
@@ -66,16 +79,14 @@ Frames dragFor(LiveViewer& live, double seconds) {
   const double end = wallSeconds() + seconds;
   // The first ones open the drag; at least three count.
   for (int frame = -3; wallSeconds() < end || frames.picture.seconds.size() < 3; ++frame) {
-    drag.move(live);
-    live->update(wallSeconds());
-    double now = wallSeconds();
-    for (const double next = live->nextFrame(now); now < next; now = wallSeconds()) live.rest(next - now);
-    const double start = wallSeconds();
-    if (!live->drawingScene()) begin = start;
     const glm::dvec3 shown = live->shownCamera().eye;
+    const double start = wallSeconds();
+    drag.move(live);
+    if (!live->drawingScene()) begin = start;
+    untilFrame(live);
     live.draw();
     if (frame < 0) continue;
-    frames.window.seconds.push_back(wallSeconds() - start);
+    frames.answer.seconds.push_back(wallSeconds() - start);
     if (live->shownCamera().eye != shown) frames.picture.seconds.push_back(wallSeconds() - begin);
   }
   return frames;
@@ -104,8 +115,8 @@ struct Round {
     alone = std::max(alone, other.alone);
     meanwhile = std::max(meanwhile, other.meanwhile);
     for (Frames Round::*part : {&Round::solving, &Round::idle}) {
-      if ((this->*part).window.seconds.empty() ||
-          (other.*part).window.median() < (this->*part).window.median())
+      if ((this->*part).answer.seconds.empty() ||
+          (other.*part).answer.median() < (this->*part).answer.median())
         std::swap(this->*part, other.*part);
     }
   }
@@ -193,8 +204,10 @@ void printFrameTable(const std::vector<std::uint64_t>& elements, double seconds)
       "second\n that it computes where nothing is drawn.)\n\n",
       kRounds, seconds);
   std::printf(
-      "Milliseconds, median and worst: of a frame of the window, and of a whole picture of the scene.\n\n");
-  TextTable table({"elements", "triangles", "idle: frame", "picture", "solving: frame", "picture",
+      "Milliseconds, median and worst: from a motion of the mouse to the window's next frame (answer), and "
+      "to the "
+      "picture of\n the scene that follows it.\n\n");
+  TextTable table({"elements", "triangles", "idle: answer", "picture", "solving: answer", "picture",
                    "pictures/s", "columns/s", "share"});
   for (const std::uint64_t count : elements) {
     LiveViewer::Options options = cornellBox(count);
@@ -207,7 +220,7 @@ void printFrameTable(const std::vector<std::uint64_t>& elements, double seconds)
     for (int round = 0; round < kRounds; ++round) best.improve(measureRound(live, seconds));
     const Mesh& mesh = *live->state().snapshot->mesh;
     table.add({std::to_string(mesh.element_count), std::to_string(mesh.triangle_element.size()),
-               best.idle.window.text(), best.idle.picture.text(), best.solving.window.text(),
+               best.idle.answer.text(), best.idle.picture.text(), best.solving.answer.text(),
                best.solving.picture.text(),
                figure("%.0f", static_cast<double>(best.solving.picture.seconds.size()) / seconds),
                figure("%.0f", best.alone),

@@ -72,6 +72,22 @@ TEST_P(EveryProvider, BlendsStraightAlpha) {
   for (std::uint8_t value : image.rgb) EXPECT_NEAR(value, 128, 1);
 }
 
+TEST_P(EveryProvider, FingerprintsTellWhatLooksOtherwise) {
+  GuiBench bench(64, 48, options());
+  const auto of = [&](float x, ImU32 colour, float clip) {
+    return fingerprint(bench.layOut([&] {
+      background().PushClipRect({0, 0}, {clip, 48});
+      background().AddRectFilled({x, 5}, {20, 10}, colour);
+      background().PopClipRect();
+    }));
+  };
+  const std::size_t first = of(10, kColour, 60);
+  EXPECT_EQ(of(10, kColour, 60), first);
+  EXPECT_NE(of(11, kColour, 60), first);
+  EXPECT_NE(of(10, kWhite, 60), first);
+  EXPECT_NE(of(10, kColour, 15), first);
+}
+
 TEST_P(EveryProvider, MoreVerticesThanSixteenBitsCount) {
   GuiBench bench(200, 150, options());
   const auto content = [] {

@@ -119,6 +119,20 @@ TEST_F(SceneDisplays, AtOnceIsOfTheNewestStateWhateverWasBegun) {
   EXPECT_EQ(pixels(display), pixels(fresh));
 }
 
+TEST_F(SceneDisplays, ASnapshotHalfUploadedIsNeverShown) {
+  SceneDisplay display(*context_), fresh(*context_);
+  display.setSnapshot(snapshot_);
+  display.draw(wanted_, -1, wallSeconds());
+  ASSERT_TRUE(display.drawing());
+  const auto newer = state(snapshot_->mesh, 3);
+  display.setSnapshot(newer);
+  drawSlowly(display);
+  fresh.setSnapshot(newer);
+  fresh.draw(wanted_, -1, SceneDisplay::kAtOnce);
+  EXPECT_EQ(pixels(display), pixels(fresh));
+  EXPECT_EQ(display.exposure(), fresh.exposure());
+}
+
 TEST_F(SceneDisplays, AnotherExposureDrawsNothingAnew) {
   SceneDisplay display(*context_);
   display.setSnapshot(snapshot_);

@@ -20,7 +20,7 @@ void runInWindow(const TempFolder& folder, const std::string& lines) {
   folder.write("script.txt", lines);
   const ProgramResult run = runProgram(folder, {"view", "--script", "script.txt", "--size", "640x480",
                                                 "--elements", "300", "--error", "0.02"});
-  EXPECT_EQ(run.code, 0);
+  EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(run.err, "");
 }
 
@@ -62,7 +62,10 @@ TEST(WindowScript, EveryModeConvergesToTheSameWithEveryMethod) {
   const std::size_t modes = iterationModes().size();
   for (std::size_t k = 0; k < names.size(); ++k) {
     const std::string& same = names[k + 1 == names.size() ? 0 : k / modes * modes];
-    EXPECT_LT(lightDifference(picture(folder, names[k]), picture(folder, same)), 0.02) << names[k];
+    const ImageF found = picture(folder, names[k]);
+    EXPECT_LT(lightDifference(found, picture(folder, same)), 0.02)
+        << names[k] << " against " << same << "; mean light " << meanLight(found) << " against "
+        << meanLight(picture(folder, same)) << (showsSomething(found) ? "" : ", one even colour");
   }
 }
 

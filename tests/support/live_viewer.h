@@ -53,14 +53,17 @@ class LiveViewer {
   Viewer* operator->() { return viewer_.get(); }
   const gl::Functions& fn() const { return display_->functions(); }
   const std::string& title() const { return title_; }
+  /// How many frames were drawn that looked otherwise than the one before.
+  int painted() const { return painted_; }
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// Takes what happened and draws the frame that is due, if one is. Returns whether one was drawn.
+  /// Takes what happened and does what is due: a slice of the picture or a frame. Returns whether it was a
+  /// frame.
   bool pump() {
     viewer_->update(wallSeconds());
     const double now = wallSeconds();
-    if (viewer_->nextFrame(now) > now) return false;
+    if (viewer_->nextFrame(now) > now || !viewer_->prepare()) return false;
     draw();
     return true;
   }
@@ -71,9 +74,10 @@ class LiveViewer {
     io.DisplaySize = {static_cast<float>(width_), static_cast<float>(height_)};
     io.DeltaTime = static_cast<float>(std::clamp(now - last_, 1e-4, 0.1));
     last_ = now;
-    viewer_->draw(objects_->framebuffer.id(), width_, height_);
+    if (!viewer_->draw(objects_->framebuffer.id(), width_, height_)) return;
     fn().Finish();
     viewer_->presented();
+    ++painted_;
   }
   /// Waits until the session has something new, or for `seconds`.
   void rest(double seconds) {
@@ -123,6 +127,7 @@ class LiveViewer {
   std::condition_variable condition_;
   bool rung_ = false;
   int width_, height_;
+  int painted_ = 0;
   double last_ = 0;
   std::string title_;
   std::unique_ptr<gl::Context> solver_, display_;

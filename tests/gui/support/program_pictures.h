@@ -1,6 +1,7 @@
 // Pictures that the program wrote, compared as a person would: by their bytes, by light, by pixels.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -34,6 +35,13 @@ inline ProgramResult runScript(const TempFolder& folder, const std::string& line
 
 inline ImageF picture(const TempFolder& folder, const std::string& name) {
   return readImage(folder.path() / name);
+}
+
+/// Over all pixels and channels; tells a darker exposure from other noise.
+inline double meanLight(const ImageF& image) {
+  double sum = 0;
+  for (const float v : image.rgb) sum += v;
+  return sum / static_cast<double>(std::max<std::size_t>(image.rgb.size(), 1));
 }
 
 /// Not one even colour.

@@ -1,0 +1,224 @@
+// The frames of the viewer: when there is something to draw, how much of it at a time, and drawing it.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/clock.h"
+#include "viewer/panels.h"
+#include "viewer/viewer.h"
+
+namespace unshot {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kFrameSeconds = 1.0 / 60;
+constexpr double kSnapshotSeconds = 1.0 / 30;
+// New light is drawn so seldom that the solver keeps most of a machine whose CPU draws.
+constexpr double kSoftwareShare = 4;  // times the cost of a frame
+constexpr double kRestSeconds = 0.2;  // without motion, before the picture is sharpened
+// In software the window hears nothing for a slice of this length.
+constexpr double kSliceSeconds = 0.004;
+// However many inputs come, a picture in the making has this long between two frames.
+constexpr double kSceneSeconds = 0.01;
+constexpr float kBackground = 26 / 255.0f;  // that of the pictures
+
+bool idle(SessionPhase phase) { return phase != SessionPhase::kRunning && phase != SessionPhase::kLoading; }
+
+}  // namespace
+
+double Viewer::nextFrame(double now) const { return closing_ ? now : std::min(nextPaint(), nextSceneWork()); }
+
+/// When the window itself waits for a frame.
+double Viewer::nextPaint() const {
+  if (gui_frames_ == 0 && captures_.empty() && !navigator_.moving()) return kNever;
+  const double soon = last_frame_ + kFrameSeconds;
+  const bool making = scene_.framing() || (sceneStands() && scene_.outdated(wanted()));
+  return making && !renderer().hardware ? std::max(soon, last_frame_end_ + kSceneSeconds) : soon;
+}
+
+/// When the picture of the scene is to be gone on with.
+double Viewer::nextSceneWork() const {
+  if (scene_.framing() || (sceneStands() && scene_.outdated(wanted()))) return last_scene_work_;
+  const double soon = last_scene_work_ + kFrameSeconds;
+  if ((sceneStands() && scene_.gliding()) || (frame_wanted_ && state_->snapshot)) return soon;
+  if (state_->snapshot != scene_.snapshot()) return nextSnapshot();
+  return mayBeSharpened(kNever) ? std::max(soon, last_motion_ + kRestSeconds) : kNever;
+}
+
+double Viewer::nextSnapshot() const {
+  const double share = renderer().hardware ? 1 : kSoftwareShare;
+  return last_picture_ + std::max(kSnapshotSeconds, share * frame_cost_);
+}
+
+bool Viewer::mayBeSharpened(double now) const {
+  return idle(state_->phase) && !scene_.empty() && !scene_.sharp() && !scene_.framing() &&
+         !navigator_.moving() && now >= last_motion_ + kRestSeconds;
+}
+
+void Viewer::navigate(double seconds) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const Camera before = navigator_.camera();
+  if (!io.WantCaptureMouse && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
+    const glm::dvec2 motion(io.MouseDelta.x, io.MouseDelta.y);
+    if (io.MouseDown[ImGuiMouseButton_Middle] || (io.MouseDown[ImGuiMouseButton_Left] && io.KeyShift)) {
+      navigator_.pan(motion, scene_height_);
+    } else if (io.MouseDown[ImGuiMouseButton_Left]) {
+      navigator_.orbit(motion, scene_height_);
+    } else if (io.MouseDown[ImGuiMouseButton_Right]) {
+      navigator_.look(motion, scene_height_);
+    }
+  }
+  if (!io.WantCaptureMouse && io.MouseWheel != 0) {
+    if (io.MouseDown[ImGuiMouseButton_Right]) {
+      navigator_.scaleSpeed(std::pow(1.25, io.MouseWheel));
+      notice("flying " + std::string(io.MouseWheel > 0 ? "faster" : "slower"));
+    } else {
+      navigator_.zoom(io.MouseWheel);
+    }
+  }
+  glm::dvec3 direction(0.0);
+  if (!io.WantTextInput && !io.KeyCtrl) {
+    const auto axis = [&](int plus, int minus) {
+      return (io.KeysDown[plus] ? 1.0 : 0.0) - (io.KeysDown[minus] ? 1.0 : 0.0);
+    };
+    direction = {axis('D', 'A'), axis('E', 'Q'), axis('W', 'S')};
+  }
+  navigator_.fly(direction, io.KeyShift);
+  navigator_.advance(seconds);
+  const Camera& after = navigator_.camera();
+  if (before.eye != after.eye || before.at != after.at) {
+    last_motion_ = last_frame_;
+  }
+}
+
+/// Looks for a camera, where one is wanted. Returns whether it was found.
+bool Viewer::frame() {
+  if (frame_wanted_ && scene_.snapshot() == state_->snapshot && state_->snapshot &&
+      (state_->measures.shots > 0 || idle(state_->phase))) {
+    frame_wanted_ = false;
+    framed_scene_ = state_->facts->scene_path;
+    scene_.startFraming(static_cast<double>(std::max(scene_width_, 1)) / std::max(scene_height_, 1));
+  }
+  const std::optional<Camera> camera = scene_.continueFraming(kSliceSeconds);
+  if (!camera) return false;
+  const Mesh& mesh = *scene_.snapshot()->mesh;
+  navigator_.reset(*camera, {mesh.bounds_min, mesh.bounds_max});
+  scene_.snapExposure();
+  last_motion_ = last_frame_;
+  input();
+  return true;
+}
+
+/// A scene without its camera is not shown: the picture of the one before stays.
+bool Viewer::sceneStands() const {
+  return !scene_.empty() && !scene_.framing() && state_->facts && framed_scene_ == state_->facts->scene_path;
+}
+
+SceneDisplay::Wanted Viewer::wanted() const {
+  return {navigator_.camera(), ui_.settings, scene_width_, scene_height_, renderer().hardware ? 2 : 1};
+}
+
+void Viewer::takeSnapshot(double now) {
+  if (state_->snapshot == scene_.snapshot()) return;
+  // What is half drawn is of one state; the next picture shows the new one.
+  const bool same_mesh =
+      state_->snapshot && scene_.snapshot() && state_->snapshot->mesh == scene_.snapshot()->mesh;
+  if (same_mesh && sceneStands() && scene_.drawing()) return;
+  // A picture that is drawn for another reason shows the newest.
+  const bool drawn_anyway = sceneStands() && scene_.outdated(wanted());
+  if (now < nextSnapshot() && !drawn_anyway && !frame_wanted_) return;
+  try {
+    scene_.setSnapshot(state_->snapshot);
+  } catch (const Error& error) {  // too large for the driver: the picture before stays
+    fail(error);
+  }
+}
+
+bool Viewer::prepare() {
+  const double now = wallSeconds();
+  const bool paint = nextPaint() <= now;
+  if (paint && !renderer().hardware) return true;
+  takeSnapshot(now);
+  const bool framed = frame();
+  // A GPU draws all of it in the frame.
+  const bool shown = sceneStands() && (renderer().hardware || drawScene(now, now + kSliceSeconds));
+  last_scene_work_ = wallSeconds();
+  if (drew_scene_) picture_cost_ += last_scene_work_ - now;
+  return paint || shown || framed;
+}
+
+/// Goes on with the picture of the scene until about `deadline`. Returns whether there is another one to
+/// show.
+bool Viewer::drawScene(double now, double deadline) {
+  const double seconds = std::min(now - std::exchange(last_scene_, now), 0.1);
+  if (scene_.draw(wanted(), seconds, deadline)) {
+    drew_scene_ = true;
+    return !scene_.drawing();
+  }
+  if (!mayBeSharpened(now)) return false;
+  scene_.sharpen(renderer().hardware ? 3 : 2, deadline);
+  return true;
+}
+
+bool Viewer::draw(GLuint framebuffer, int width, int height) {
+  const double now = wallSeconds();
+  const double seconds = std::min(now - last_frame_, 0.1);
+  last_frame_ = now;
+  if (gui_frames_ > 0) --gui_frames_;
+  scene_width_ = width - panelWidth(ui_, scale_, width);
+  scene_height_ = height;
+  ImGui::NewFrame();
+  navigate(seconds);
+  buildSidePanel(*this, scene_width_);
+  buildOverlays(*this, scene_width_, notice_, scene_.framing() || frame_wanted_);
+  ImGui::Render();
+
+  if (renderer().hardware) {
+    takeSnapshot(now);
+    if (sceneStands()) drawScene(now, SceneDisplay::kAtOnce);
+  }
+  const PaintedLook look{framebuffer, width, height, scene_.version(), fingerprint(*ImGui::GetDrawData())};
+  const bool changed = painted_ != look;
+  painted_ = look;
+  if (changed) paint(framebuffer, width, height, true);
+  // ImGui shows a new window one frame late.
+  if (!captures_.empty() && gui_frames_ == 0) {
+    const Capture next = captures_.front();
+    captures_.pop_front();
+    capture(next, width, height, scene_width_);
+  }
+  gl::checkErrors(setup_.display->functions(), "drawing a frame of the viewer");
+  return changed;
+}
+
+void Viewer::damaged() {
+  painted_.reset();
+  input();
+}
+
+void Viewer::presented() {
+  last_frame_end_ = wallSeconds();
+  if (!std::exchange(drew_scene_, false)) return;
+  picture_cost_ += last_frame_end_ - last_frame_;
+  if (scene_.drawing()) return;
+  last_picture_ = last_frame_end_;
+  const double cost = std::exchange(picture_cost_, 0);
+  if (!scene_.drawnAnew()) return;
+  frame_cost_ = frame_cost_ == 0 ? cost : 0.8 * frame_cost_ + 0.2 * cost;
+  // What would not be shown need not be made.
+  const double share = renderer().hardware ? 1 : kSoftwareShare;
+  session_.setPublishInterval(std::max(kSnapshotSeconds, share * frame_cost_));
+}
+
+void Viewer::paint(GLuint framebuffer, int width, int height, bool gui) {
+  const gl::Functions& fn = setup_.display->functions();
+  fn.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  fn.Viewport(0, 0, width, height);
+  fn.ClearColor(kBackground, kBackground, kBackground, 1);
+  fn.Clear(GL_COLOR_BUFFER_BIT);
+  scene_.copyTo(0, 0);
+  if (gui) gui_.draw(*ImGui::GetDrawData(), width, height);
+}
+
+}  // namespace unshot

@@ -1,0 +1,85 @@
+// What the viewer does between its frames: a picture that takes long does not keep the window from answering.
+#include <gtest/gtest.h>
+
+#include "support/live_viewer.h"
+
+namespace unshot {
+namespace {
+
+using testing_support::LiveViewer;
+
+/// The Cornell box with so many elements that a picture takes many slices on any machine, paused and drawn.
+class ViewerFrames : public testing::Test {
+ protected:
+  ViewerFrames() : live_(options()) {
+    live_->pause();
+    const glm::dvec3 unframed = live_->camera().eye;
+    // Inputs without a pause do not keep it from finding its camera either.
+    EXPECT_TRUE(live_.until([&] {
+      live_->input();
+      return live_->camera().eye != unframed && live_->shownCamera().eye == live_->camera().eye;
+    })) << "never framed";
+    EXPECT_TRUE(live_.until([this] { return live_->nextFrame(0) > 1e30; })) << "never at rest";
+  }
+  static LiveViewer::Options options() {
+    LiveViewer::Options options;
+    options.scene = UNSHOT_SOURCE_DIR "/assets/cornell_box.obj";
+    options.solve.elements = 500'000;
+    return options;
+  }
+
+  LiveViewer live_;
+};
+
+TEST_F(ViewerFrames, AnswerWhileThePictureIsMade) {
+  const glm::dvec3 before = live_->shownCamera().eye;
+  live_->navigator().orbit({40, 0}, 240);
+  live_->input();
+  ASSERT_TRUE(live_.until([this] { return live_->drawingScene(); }));
+  live_->perform("help");
+  const int painted = live_.painted();
+  int answers = 0, slices = 0;
+  while (live_->drawingScene()) {
+    const glm::dvec3 shown = live_->shownCamera().eye;
+    if (!live_.pump()) ++slices;
+    if (!live_->drawingScene()) break;
+    EXPECT_EQ(live_->shownCamera().eye, shown) << "half a picture";
+    answers = live_.painted() - painted;
+  }
+  EXPECT_GE(answers, 1) << "the window waits for the picture";
+  EXPECT_GE(slices, 3);
+  EXPECT_TRUE(live_.until([this] { return live_->nextFrame(0) > 1e30; }));
+  EXPECT_NE(live_->shownCamera().eye, before);
+  EXPECT_EQ(live_->shownCamera().eye, live_->camera().eye);
+}
+
+TEST_F(ViewerFrames, InputsWithoutAPauseDoNotStarveThePicture) {
+  const auto despite_inputs = [this](const std::function<bool()>& condition) {
+    return live_.until([&] { return live_->input(), condition(); }, 60);
+  };
+  live_->navigator().orbit({40, 0}, 240);
+  EXPECT_TRUE(despite_inputs([this] { return live_->shownCamera().eye == live_->camera().eye; })) << "camera";
+  live_->resume();
+  const std::shared_ptr<const Snapshot> before = live_->shownSnapshot();
+  EXPECT_TRUE(despite_inputs([&] { return live_->shownSnapshot() != before; })) << "new light";
+}
+
+TEST(ViewerFrame, IsDrawnAgainOnlyWhereItLooksOtherwise) {
+  LiveViewer live(LiveViewer::Options{});
+  const auto rest = [&] {
+    EXPECT_TRUE(live.until([&] { return live->nextFrame(0) > 1e30; }));
+    return live.painted();
+  };
+  const int before = rest();
+  EXPECT_GE(before, 1);
+  live->input();
+  EXPECT_EQ(rest(), before);
+  live->perform("help");
+  const int with_help = rest();
+  EXPECT_GT(with_help, before);
+  live->damaged();
+  EXPECT_EQ(rest(), with_help + 1);
+}
+
+}  // namespace
+}  // namespace unshot
