@@ -1,6 +1,7 @@
 #version 330 core
 // What cannot be worked out at vertices: light by element, signed light, lines. Else as display.frag.
 #include "colour.glsl"
+#include "difference.glsl"
 
 in vec3 vertex_irradiance;
 in vec3 vertex_ambient;
@@ -9,6 +10,7 @@ flat in vec3 reflectance;
 flat in vec3 emission;
 
 uniform int quantity;  // enum Quantity
+uniform float per_mean;  // of differences: 1 over the mean reflected light of the reference
 uniform bool per_element;
 uniform bool edges;
 uniform int first_triangle;  // of this draw
@@ -32,6 +34,8 @@ void main() {
     lamp = any(greaterThan(emission, vec3(0.0)));
   } else if (quantity == 1) {
     shown = received;
+  } else if (quantity == 7) {
+    shown = differenceColour(luminance(reflectance * received - vertex_extra) * per_mean);
   } else if (quantity == 2 || quantity >= 5) {
     float y = luminance(vertex_extra);
     shown = y < 0.0 ? -y * kNegative : vertex_extra;

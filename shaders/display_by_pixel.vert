@@ -6,7 +6,7 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in uint side;
 layout(location = 3) in vec3 irradiance;
 layout(location = 4) in vec3 ambient;
-layout(location = 5) in vec3 extra;  // what the mode shows besides the light: unshot, bounces or residual
+layout(location = 5) in vec3 extra;  // what the mode shows besides the light: unshot, bounces, residual or the reference's reflected light
 
 uniform mat4 view_projection;
 uniform vec3 eye;

@@ -9,6 +9,7 @@
 #include "base/read_file.h"
 #include "export/image_files.h"
 #include "export/ply.h"
+#include "export/probes.h"
 
 namespace unshot {
 namespace {
@@ -88,8 +89,9 @@ ValuePairs readPlys(const std::filesystem::path& a, const std::filesystem::path&
   ValuePairs pairs;
   pairs.points = "vertex";
   pairs.note = "light sources count with their own light";
-  pairs.a = std::move(first.radiosity);
-  pairs.b = std::move(second.radiosity);
+  pairs.a = first.radiosity;
+  pairs.b = second.radiosity;
+  pairs.solutions.emplace(std::move(first), std::move(second));
   return pairs;
 }
 
@@ -163,8 +165,18 @@ void requireSamePoints(const ProbeTable& a, const ProbeTable& b) {
   }
 }
 
-ValuePairs readProbePairs(const std::filesystem::path& path_a, const std::filesystem::path& path_b) {
-  const ProbeTable a = readProbeTable(path_a), b = readProbeTable(path_b);
+/// What a PLY solution has at the points of a table.
+ProbeTable probesOfPly(const std::filesystem::path& ply, const std::filesystem::path& points) {
+  ProbeTable probes;
+  probes.table.path = ply;
+  const std::vector<Probe> at = readProbes(points);
+  probes.radiosity = answerProbes(readPly(ply), at);
+  for (const Probe& probe : at) probes.positions.push_back(probe.position);
+  probes.emission.resize(at.size());
+  return probes;
+}
+
+ValuePairs probePairs(const ProbeTable& a, const ProbeTable& b) {
   requireSamePoints(a, b);
   const std::size_t rows = a.positions.size();
   std::vector<glm::dvec3> emission(rows, glm::dvec3(0.0));
@@ -192,7 +204,8 @@ ValuePairs readProbePairs(const std::filesystem::path& path_a, const std::filesy
   if (!some_dark && emitting > 0) pairs.note = "reflected light only: B - E";
   if (empty > 0) pairs.note += (pairs.note.empty() ? "" : ", ") + std::to_string(empty) + " without a value";
   if (pairs.a.empty())
-    fail(path_a.string(), "there is no point with values in both files", "probes that lie on the scene");
+    fail(a.table.path.string(), "there is no point with values in both files",
+         "probes that lie on the scene");
   return pairs;
 }
 
@@ -200,9 +213,13 @@ ValuePairs readProbePairs(const std::filesystem::path& path_a, const std::filesy
 
 ValuePairs readPairs(const std::filesystem::path& a, const std::filesystem::path& b) {
   const FileKind kind = kindOf(a), other = kindOf(b);
+  if (kind == FileKind::kPly && other == FileKind::kCsv)
+    return probePairs(probesOfPly(a, b), readProbeTable(b));
+  if (kind == FileKind::kCsv && other == FileKind::kPly)
+    return probePairs(readProbeTable(a), probesOfPly(b, a));
   if (kind != other) {
     fail(a.string(), "this is " + nameOf(kind) + ", but " + b.string() + " is " + nameOf(other),
-         "two files of one kind");
+         "two files of one kind, or a PLY solution and a table of probes");
   }
   switch (kind) {
     case FileKind::kPicture:
@@ -212,7 +229,7 @@ ValuePairs readPairs(const std::filesystem::path& a, const std::filesystem::path
     case FileKind::kCsv:
       break;
   }
-  return readProbePairs(a, b);
+  return probePairs(readProbeTable(a), readProbeTable(b));
 }
 
 }  // namespace unshot

@@ -24,6 +24,7 @@ SolverArguments::SolverArguments(Command& command, SolverUse use) {
   addSolver(command, use);
   addMesh(command);
   if (use != SolverUse::kReport) addLimits(command);
+  if (use == SolverUse::kSolve) addBounces(command);
 }
 
 void SolverArguments::addSolver(Command& command, SolverUse use) {
@@ -76,6 +77,13 @@ void SolverArguments::addLimits(Command& command) {
               positiveNumber());
   command.add("--max-shots", options_.max_shots, "N", "Stop after so many shots and write the result",
               wholeNumber(1));
+}
+
+void SolverArguments::addBounces(Command& command) {
+  command.add("--bounces", options_.bounces, "N",
+              "Only the light of N bounces, E + M E + ... + M^N E, whatever its error; 1 is direct light",
+              wholeNumber(1));
+  command.exclude("--bounces", "--error");
 }
 
 SolveOptions SolverArguments::options() const {

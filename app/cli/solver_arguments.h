@@ -31,6 +31,7 @@ class SolverArguments {
   void addSolver(Command& command, SolverUse use);
   void addMesh(Command& command);
   void addLimits(Command& command);
+  void addBounces(Command& command);
 
   SolveOptions options_;
   std::string gl_ = "auto", shader_dir_, emit_ = "both";

@@ -11,6 +11,7 @@
 #include "formfactor/methods.h"
 #include "mesh/build.h"
 #include "render/display_modes.h"
+#include "solver/bounce_series.h"
 #include "solver/modes.h"
 #include "viewer/viewer.h"
 
@@ -58,6 +59,18 @@ std::string checkFraction(const std::string& text) {
 std::string checkNumber(const std::string& text) {
   const std::optional<double> number = parseNumber(text);
   return number && std::abs(*number) <= 100 ? "" : "'" + text + "' is no number from -100 to 100";
+}
+
+std::optional<PlotAxis> plotAxis(const std::string& text) {
+  if (text == "seconds") return PlotAxis::kSeconds;
+  if (text == "shots") return PlotAxis::kShots;
+  return text == "rows" ? std::optional(PlotAxis::kRows) : std::nullopt;
+}
+
+std::string checkBounces(const std::string& text) {
+  if (text == "all") return {};
+  const std::string wrong = checkWhole<1, BounceSeries::kMost>(text);
+  return wrong.empty() ? wrong : wrong + ", nor 'all'";
 }
 
 std::string checkScale(const std::string& text) {
@@ -188,19 +201,44 @@ const std::
                        "[on|off]",
                        "With or without radiosity: all light, or only what comes straight from lamps",
                        {GLFW_KEY_B, false, "B"},
-                       [](Viewer& v, const std::string& a) { setSwitch(v.ui().settings.view.indirect, a); },
-                       checkSwitch},
-                Action{"ambient",
-                       "[on|off]",
-                       "Add the estimate of light still unshot to the picture",
-                       {GLFW_KEY_G, false, "G"},
-                       [](Viewer& v, const std::string& a) { setSwitch(v.ui().settings.view.ambient, a); },
-                       checkSwitch},
-                Action{"exposure", "EV", "Stops brighter than the automatic exposure", kNone,
                        [](Viewer& v, const std::string& a) {
-                         v.ui().settings.view.exposure_ev = *parseNumber(a);
+                         setSwitch(v.ui().settings.view.light.indirect, a);
                        },
-                       checkNumber},
+                       checkSwitch},
+                Action{"bounces", "N|all", "Only the light of the first N bounces, computing what they need",
+                       kNone,
+                       [](Viewer& v, const std::string& a) {
+                         v.setBounces(a == "all" ? std::nullopt
+                                                 : std::optional(static_cast<std::uint32_t>(whole(a))));
+                       },
+                       checkBounces},
+                Action{"complete-bounces", "",
+                       "Compute at rest the form factors that light by bounces still lacks", kNone,
+                       [](Viewer& v, const std::string&) { v.completeBounces(); }},
+                Action{"remember",
+                       "",
+                       "Remember this light, for the difference from it (display difference)",
+                       {GLFW_KEY_K, false, "K"},
+                       [](Viewer& v, const std::string&) { v.remember(); },
+                       nullptr,
+                       true},
+                Action{"reference", "PATH", "Difference from a solution that unshot solve --ply wrote",
+                       kNone, [](Viewer& v, const std::string& a) { v.loadReference(a); }, nullptr, true},
+                Action{"forget", "", "Difference from direct light again, not from what was remembered",
+                       kNone, [](Viewer& v, const std::string&) { v.forget(); }},
+                Action{
+                    "ambient",
+                    "[on|off]",
+                    "Add the estimate of light still unshot to the picture",
+                    {GLFW_KEY_G, false, "G"},
+                    [](Viewer& v, const std::string& a) { setSwitch(v.ui().settings.view.ambient, a); },
+                    checkSwitch},
+                Action{
+                    "exposure", "EV", "Stops brighter than the automatic exposure", kNone,
+                    [](Viewer& v, const std::string& a) {
+                      v.ui().settings.view.exposure_ev = *parseNumber(a);
+                    },
+                    checkNumber},
                 Action{"brighter",
                        "",
                        "Half a stop brighter",
@@ -245,12 +283,14 @@ const std::
                     "Close the message or the help",
                     {GLFW_KEY_ESCAPE, false, "Esc"},
                     [](Viewer& v, const std::string&) { v.dismiss(); }},
-                Action{"plot", "shots|seconds", "What the curve runs against",
-                       kNone, [](Viewer& v, const std::string& a) { v.ui().plot_shots = a == "shots"; },
+                Action{"plot", "seconds|shots|rows", "What the curve runs against",
+                       kNone, [](Viewer& v, const std::string& a) { v.ui().plot_axis = *plotAxis(a); },
                        [](const std::string& a) {
-                         return a == "shots" || a == "seconds" ? std::string()
-                                                               : "'" + a + "' is neither shots nor seconds";
+                         return plotAxis(a) ? std::string()
+                                            : "'" + a + "' is neither seconds, shots nor rows";
                        }},
+                Action{"again", "", "Shoot again from nothing, with the form factors at hand",
+                       kNone, [](Viewer& v, const std::string&) { v.shootAgain(); }},
                 Action{
                     "size", "WxH", "Make the window this large [px]", kNone,
                     [](Viewer& v, const std::string& a) {

@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "viewer/plot.h"
+#include "viewer/plot_axes.h"
 #include "viewer/widgets.h"
 
 namespace unshot {
@@ -14,25 +15,39 @@ namespace {
 // Bounds above it say nothing: the picture may be black.
 constexpr double kMostShown = 1;
 
-// A bar on a logarithmic scale from 0.01 % to 100 %, with what it stands for and its value.
+double shareOf(double value) { return value > 0 ? std::clamp(1 + std::log10(value) / 4, 0.0, 1.0) : 0.0; }
+
+// A bar on a logarithmic scale from 0.01 % to 100 %, with what it stands for and its value; where `inner` is
+// given, a brighter one within it.
 void errorBar(const char* name, double value, const std::string& text, const ImVec4& colour,
-              std::string_view tip) {
+              std::string_view tip, double inner = 0) {
   label(name, tip);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetFrameHeight();
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const ImVec2 end(corner.x + width, corner.y + height);
   draw->AddRectFilled(corner, end, ImGui::GetColorU32(ImGuiCol_FrameBg), 3);
-  const double share = value > 0 ? std::clamp(1 + std::log10(value) / 4, 0.0, 1.0) : 0.0;
-  if (share > 0) {
+  const auto fill = [&](double share, const ImVec4& with) {
+    if (share <= 0) return;
     draw->AddRectFilled(corner, {corner.x + static_cast<float>(share) * width, end.y},
-                        ImGui::GetColorU32(colour), 3);
-  }
+                        ImGui::GetColorU32(with), 3);
+  };
+  fill(shareOf(value), colour);
+  fill(shareOf(inner), {1.25f * colour.x, 1.25f * colour.y, 1.25f * colour.z, 1});
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   draw->AddText({end.x - size.x - 6, corner.y + (height - size.y) / 2}, ImGui::GetColorU32(ImGuiCol_Text),
                 text.c_str());
   ImGui::Dummy({width, height});
   tooltip(tip);
+}
+
+std::string solverText(const Measures& m) {
+  const bool bounded = m.solverBound() < kMostShown;
+  if (!m.true_error) return bounded ? "at most " + percentText(m.solverBound()) : "no bound yet";
+  // The bound of the same figure; solverBound() may be that of the total.
+  const std::string truth = "true " + shortValueText(*m.true_error, true);
+  return m.bounds.upper < kMostShown ? truth + ", below " + shortValueText(m.bounds.upper, true)
+                                     : truth + ", no bound yet";
 }
 
 std::string estimateText(const ErrorEstimate& e) {
@@ -53,11 +68,14 @@ void errorsSection(Viewer& viewer) {
   if (!section("Errors")) return;
   const SessionState& state = viewer.state();
   const double bound = state.measures.solverBound();
+  const std::optional<double>& truth = state.measures.true_error;
   errorBar(
-      "Solver", bound < kMostShown ? bound : 0,
-      bound < kMostShown ? "at most " + percentText(bound) : "no bound yet", {0.62f, 0.45f, 0.16f, 1},
-      "Distance to the exact solution for these form factors: a bound, proven at every step. The bars are "
-      "logarithmic, from 0.01 % to 100 %");
+      "Solver", bound < kMostShown ? bound : 0, solverText(state.measures), {0.62f, 0.45f, 0.16f, 1},
+      "Distance to the exact solution for these form factors: a bound, proven at every step; and once the "
+      "mode \"direct\" has solved this system, the true distance, the brighter bar (Again: shoot once more, "
+      "in "
+      "any mode). The bars are logarithmic, from 0.01 % to 100 %",
+      truth.value_or(0));
   errorBar("Form factors", state.estimates.form_factor.value, estimateText(state.estimates.form_factor),
            {0.24f, 0.45f, 0.62f, 1},
            "Estimated at random places against far denser rays, with its 95 % interval; refined while "
@@ -73,12 +91,14 @@ void errorsSection(Viewer& viewer) {
 void convergenceSection(Viewer& viewer) {
   if (!section("Convergence")) return;
   const SessionState& state = viewer.state();
-  const bool shots = viewer.ui().plot_shots;
+  const PlotAxis axis = viewer.ui().plot_axis;
   std::vector<PlotPoint> points, bound;
   if (state.history) {
     points.reserve(state.history->size() + 1);
     const auto add = [&](const Measures& m) {
-      const double x = shots ? static_cast<double>(m.shots) : m.seconds;
+      const double x = axis == PlotAxis::kSeconds ? m.seconds
+                       : axis == PlotAxis::kShots ? static_cast<double>(m.shots)
+                                                  : static_cast<double>(m.rows);
       points.push_back({x, m.unshot_fraction});
       if (m.solverBound() < kMostShown) bound.push_back({x, m.solverBound()});
     };
@@ -86,15 +106,19 @@ void convergenceSection(Viewer& viewer) {
     if (state.facts) add(state.measures);
   }
   PlotStyle style;
-  style.x_unit = shots ? "" : "s";
+  style.x_unit = axis == PlotAxis::kSeconds ? "s" : "";
   style.goal = viewer.ui().options.error;
   style.height = 9 * ImGui::GetFontSize();
   // On the curve's first line, whose left half is free.
   const ImVec2 corner = ImGui::GetCursorPos();
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0, 0));
-  if (ImGui::RadioButton("Seconds", !shots)) viewer.perform("plot", "seconds");
-  ImGui::SameLine();
-  if (ImGui::RadioButton("Shots", shots)) viewer.perform("plot", "shots");
+  if (ImGui::RadioButton("Seconds", axis == PlotAxis::kSeconds)) viewer.perform("plot", "seconds");
+  // Close together, for the last value stands at the right.
+  ImGui::SameLine(0, 0.3f * ImGui::GetFontSize());
+  if (ImGui::RadioButton("Shots", axis == PlotAxis::kShots)) viewer.perform("plot", "shots");
+  ImGui::SameLine(0, 0.3f * ImGui::GetFontSize());
+  if (ImGui::RadioButton("Rows", axis == PlotAxis::kRows)) viewer.perform("plot", "rows");
+  tooltip("Columns and rows of form factors computed");
   ImGui::PopStyleVar();
   ImGui::SetCursorPos(corner);
   style.bound = bound;

@@ -13,7 +13,7 @@ std::string errorInFront(const SessionState& state);
 /// From which cause the picture is wrong.
 void errorsSection(Viewer& viewer);
 
-/// Unshot light and the error's bound against seconds or shots.
+/// Unshot light and the error's bound against seconds, shots or rows.
 void convergenceSection(Viewer& viewer);
 
 }  // namespace unshot

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/clock.h"
+#include "viewer/comparison.h"
 #include "viewer/panels.h"
 #include "viewer/viewer.h"
 
@@ -171,6 +172,7 @@ bool Viewer::draw(GLuint framebuffer, int width, int height) {
   ImGui::NewFrame();
   navigate(seconds);
   buildSidePanel(*this, scene_width_);
+  buildLegend(*state_, ui_.settings.view);
   buildOverlays(*this, scene_width_, notice_, scene_.framing() || frame_wanted_);
   ImGui::Render();
 

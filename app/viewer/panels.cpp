@@ -10,6 +10,7 @@
 #include "mesh/build.h"
 #include "render/display_modes.h"
 #include "solver/modes.h"
+#include "viewer/bounce_panel.h"
 #include "viewer/error_panel.h"
 #include "viewer/theme.h"
 #include "viewer/widgets.h"
@@ -99,7 +100,7 @@ void head(Viewer& viewer) {
         "the light not yet shot");
   }
   const float gap = ImGui::GetStyle().ItemSpacing.x;
-  const float width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
+  const float width = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
   const bool paused = state.phase == SessionPhase::kPaused;
   const bool can_pause = paused || state.phase == SessionPhase::kRunning;
   ImGui::BeginDisabled(!can_pause);
@@ -113,6 +114,9 @@ void head(Viewer& viewer) {
   ImGui::BeginDisabled(!state.facts);
   if (ImGui::Button("Restart", {width, 0})) viewer.perform("restart");
   tooltip("Ctrl+R: from the start, nothing shot");
+  ImGui::SameLine();
+  if (ImGui::Button("Again", {width, 0})) viewer.perform("again");
+  tooltip("Shoots again from nothing, with the form factors that are at hand: to see modes compete");
   ImGui::EndDisabled();
 }
 
@@ -209,13 +213,24 @@ void displaySection(Viewer& viewer) {
   const std::string mode =
       choose("##display", displayModes(), shown, titleOf(displayModes(), shown), nullptr);
   if (!mode.empty()) viewer.perform("display", mode);
-  bool on = ui.settings.view.indirect;
+  label("Difference", "What the display \"Difference\" compares with");
+  if (ImGui::Button("Remember")) viewer.perform("remember");
+  tooltip(
+      "K: the light as it is shown now. The display \"Difference\" then shows how what is shown differs from "
+      "it");
+  ImGui::SameLine();
+  const auto& reference = ui.settings.view.reference;
+  ImGui::BeginDisabled(!reference);
+  if (ImGui::Button("Forget")) viewer.perform("forget");
+  tooltip(reference ? "Compared with " + reference->name : "Compared with direct light alone");
+  ImGui::EndDisabled();
+  bool on = ui.settings.view.light.indirect;
   if (ImGui::Checkbox("Radiosity", &on)) viewer.perform("radiosity", on ? "on" : "off");
   tooltip(
       "B: with all light that goes back and forth between surfaces, or without: only what comes straight "
       "from lamps");
   ImGui::SameLine(9.0f * ImGui::GetFontSize());
-  ImGui::BeginDisabled(!ui.settings.view.indirect);
+  ImGui::BeginDisabled(!ui.settings.view.light.all());
   on = ui.settings.view.ambient;
   if (ImGui::Checkbox("Ambient term", &on)) viewer.perform("ambient", on ? "on" : "off");
   tooltip(
@@ -342,6 +357,7 @@ void buildSidePanel(Viewer& viewer, int left) {
   errorsSection(viewer);
   convergenceSection(viewer);
   displaySection(viewer);
+  bouncesSection(viewer);
   figuresSection(viewer);
   notesSection(viewer);
   ImGui::EndChild();

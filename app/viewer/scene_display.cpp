@@ -23,7 +23,8 @@ bool same(const Camera& a, const Camera& b) {
 bool sameSamples(const SceneDisplay::Wanted& a, const SceneDisplay::Wanted& b) {
   const ViewOptions &va = a.settings.view, &vb = b.settings.view;
   return same(a.camera, b.camera) && va.display == vb.display && va.ambient == vb.ambient &&
-         va.indirect == vb.indirect && a.width == b.width && a.height == b.height && a.samples == b.samples;
+         va.light == vb.light && va.reference == vb.reference && a.width == b.width && a.height == b.height &&
+         a.samples == b.samples;
 }
 
 ViewOptions viewOf(const SceneDisplay::Wanted& wanted) {
@@ -214,8 +215,8 @@ bool SceneDisplay::drawPieces(const LinearTarget& target, const Wanted& wanted, 
 
 void SceneDisplay::expose() {
   const Wanted& wanted = making_->wanted;
-  // Direct light alone keeps the exposure of the whole, so that the eye sees what is missing.
-  const bool follow = !wanted.settings.exposure_locked && wanted.settings.view.indirect;
+  // A part of the light keeps the exposure of the whole, so that the eye sees what is missing.
+  const bool follow = !wanted.settings.exposure_locked && wanted.settings.view.light.all();
   if (drawn_ && drawn_->settings.view.display != wanted.settings.view.display) snap_ = true;
   gliding_ = false;
   if (follow || snap_) {

@@ -20,7 +20,7 @@ namespace unshot {
 
 /// What the picture is made with, besides snapshot and camera.
 struct DisplaySettings {
-  ViewOptions view;              ///< display mode, exposure_ev, ambient, indirect; the rest is chosen here
+  ViewOptions view;  ///< display mode, exposure_ev, ambient, light, reference; the rest is chosen here
   bool exposure_locked = false;  ///< keeps the present exposure instead of following the light
 };
 

@@ -9,6 +9,7 @@
 #include "base/clock.h"
 #include "exit_codes.h"
 #include "viewer/actions.h"
+#include "viewer/comparison.h"
 #include "viewer/panels.h"
 #include "viewer/theme.h"
 
@@ -75,6 +76,7 @@ void Viewer::takeState(double now) {
     error_.reset();
     if (script_.empty()) exit_code_ = 0;
     if (setup_.title) setup_.title(state_->facts->scene_name + " \u2013 Unshot");
+    forgetOldLight();
     frame_wanted_ = frame_wanted_ || state_->facts->scene_path != framed_scene_;
   }
   noteRates(now);
@@ -170,6 +172,30 @@ void Viewer::pauseOrResume() {
   }
 }
 
+void Viewer::setBounces(std::optional<std::uint32_t> bounces) {
+  ui_.settings.view.light = {true, bounces};
+  if (bounces) session_.completeBounces();
+}
+
+void Viewer::remember() {
+  ui_.settings.view.reference = rememberedLight(*state_, ui_.settings.view.light);
+  notice("remembered: " + ui_.settings.view.reference->name);
+}
+
+void Viewer::loadReference(const std::filesystem::path& ply) {
+  ui_.settings.view.reference = loadedLight(*state_, ply);
+  notice("compared with " + ui_.settings.view.reference->name);
+}
+
+void Viewer::forget() { ui_.settings.view.reference.reset(); }
+
+// Light of another mesh is no reference; bounces that were chosen are wanted of the new solve too.
+void Viewer::forgetOldLight() {
+  ViewOptions& view = ui_.settings.view;
+  if (view.reference && view.reference->mesh != state_->snapshot->mesh) view.reference.reset();
+  if (view.light.bounces) session_.completeBounces();
+}
+
 void Viewer::frameScene() { frame_wanted_ = true; }
 
 void Viewer::setCamera(const glm::dvec3& eye, const glm::dvec3& at, std::optional<double> fov_deg) {
@@ -194,7 +220,7 @@ void Viewer::resizeWindow(int width, int height) {
 
 bool Viewer::settled() const {
   return session_.sent() == state_->commands && state_->phase != SessionPhase::kLoading && !frame_wanted_ &&
-         !scene_.framing() && captures_.empty();
+         !scene_.framing() && captures_.empty() && !bouncesComing(*state_);
 }
 
 bool Viewer::waitIsOver(const ScriptLine& line, double now) {

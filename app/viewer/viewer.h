@@ -41,13 +41,16 @@ struct ViewerSetup {
   std::function<void(const std::string&)> title;
 };
 
+/// What the curve runs against.
+enum class PlotAxis { kSeconds, kShots, kRows };
+
 /// What the panels show and actions change, besides the session.
 struct ViewerState {
   SolveOptions options;  ///< of the present or the next solve
   DisplaySettings settings;
   bool panel = true;
   bool help = false;
-  bool plot_shots = false;  ///< the curve against shots instead of seconds
+  PlotAxis plot_axis = PlotAxis::kSeconds;
 };
 
 /// Shots and columns a second, over about the last second.
@@ -113,12 +116,21 @@ class Viewer {
   void open(const std::filesystem::path& scene);
   /// Solves again from the start with ui().options.
   void restart();
+  /// The same with the form factors at hand.
+  void shootAgain() { session_.shootAgain(); }
   void setMode(const std::string& key);
   void setError(double error);
   void pauseOrResume();
   void pause() { session_.pause(); }
   void resume() { session_.resume(); }
   void step(std::uint64_t shots) { session_.step(shots); }
+  /// Shows the light of so many bounces only, working them out where that takes more form factors; none: all.
+  void setBounces(std::optional<std::uint32_t> bounces);
+  void completeBounces() { session_.completeBounces(); }
+  /// What the display mode `difference` compares with: what is shown now; a solution in a file; direct light.
+  void remember();
+  void loadReference(const std::filesystem::path& ply);
+  void forget();
   /// Finds the automatic camera again.
   void frameScene();
   /// In the coordinates of the scene's file.
@@ -161,6 +173,7 @@ class Viewer {
   void runScript(double now);
   bool waitIsOver(const ScriptLine& line, double now);
   bool settled() const;
+  void forgetOldLight();
   void fail(const Error& error);
   void navigate(double seconds);
   bool mayBeSharpened(double now) const;

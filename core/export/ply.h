@@ -1,6 +1,7 @@
 // Solutions as PLY: binary little-endian, one radiosity per display vertex.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <string>
@@ -20,6 +21,8 @@ std::string plyBytes(const Snapshot& snapshot, bool with_ambient, double exposur
 struct PlySolution {
   std::vector<glm::dvec3> positions;  ///< file coordinates
   std::vector<glm::dvec3> radiosity;  ///< one per vertex
+  /// Three vertices per triangle, counter-clockwise as seen from their side; empty where the file has none.
+  std::vector<std::uint32_t> triangles;
 };
 
 /// Reads what plyBytes writes (any scalar vertex properties, in any order). Throws Error (kInput).

@@ -40,6 +40,8 @@ struct Header {
   std::size_t vertices = 0;
   std::size_t stride = 0;  ///< bytes per vertex
   std::vector<Property> properties;
+  std::size_t triangles = 0;     ///< of the faces that follow the vertices
+  bool faces_are_lists = false;  ///< "list uchar int vertex_indices" and nothing else
 };
 
 /// The words of a line of the header.
@@ -70,7 +72,12 @@ Header readHeader(std::string_view bytes, const std::filesystem::path& path) {
       element = words[1];
       const std::optional<double> count = parseNumber(words[2]);
       if (!count || *count < 0) fail(path, "a count in the header of the PLY file is not a number");
+      if (element == "face") header.triangles = static_cast<std::size_t>(std::min(*count, 1e12));
       if (element == "vertex") header.vertices = static_cast<std::size_t>(std::min(*count, 1e12));
+    }
+    if (words[0] == "property" && element == "face") {
+      header.faces_are_lists = words.size() == 5 && words[1] == "list" && words[2] == "uchar" &&
+                               words[3] == "int" && words[4] == "vertex_indices";
     }
     if (words[0] == "property" && element == "vertex" && words.size() == 3) {
       const std::optional<std::size_t> size = sizeOfType(words[1]);
@@ -95,6 +102,28 @@ std::size_t offsetOf(const Header& header, std::string_view name, const std::fil
     fail(path, "property '" + std::string(name) + "' of the PLY file is not float");
   }
   return found->offset;
+}
+
+std::vector<std::uint32_t> readTriangles(const std::string& bytes, const Header& header,
+                                         const std::filesystem::path& path) {
+  constexpr std::size_t kFaceBytes = 13;
+  std::vector<std::uint32_t> out;
+  if (!header.faces_are_lists) return out;
+  const std::size_t begin = header.length + header.vertices * header.stride;
+  if (header.triangles > (bytes.size() - begin) / kFaceBytes) fail(path, "the PLY file is cut short");
+  out.reserve(3 * header.triangles);
+  for (std::size_t t = 0; t < header.triangles; ++t) {
+    const char* face = bytes.data() + begin + t * kFaceBytes;
+    if (*face != 3) fail(path, "face " + std::to_string(t) + " of the PLY file is no triangle");
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::uint32_t vertex = 0;
+      std::memcpy(&vertex, face + 1 + 4 * k, sizeof vertex);
+      if (vertex >= header.vertices)
+        fail(path, "face " + std::to_string(t) + " of the PLY file has a vertex that is not there");
+      out.push_back(vertex);
+    }
+  }
+  return out;
 }
 
 }  // namespace
@@ -124,6 +153,7 @@ PlySolution readPly(const std::filesystem::path& path) {
       }
     }
   }
+  solution.triangles = readTriangles(bytes, header, path);
   return solution;
 }
 

@@ -1,6 +1,7 @@
 #include "export/probes.h"
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "base/csv_table.h"
@@ -60,6 +61,30 @@ Target targetOf(const Mesh& mesh) {
   return target;
 }
 
+/// What `at` says of the vertices of the triangle that each probe lies on.
+template <class F>
+std::vector<std::optional<glm::dvec3>> answer(const Target& target, double reach, const glm::dvec3& origin,
+                                              std::span<const Probe> probes, F&& at) {
+  const NearestTriangle nearest(target.positions, target.corners);
+  std::vector<std::optional<glm::dvec3>> answers(probes.size());
+  for (std::size_t k = 0; k < probes.size(); ++k) {
+    const glm::vec3 normal(glm::normalize(probes[k].normal));
+    const auto faces = [&](std::uint32_t triangle) {
+      return glm::dot(target.normals[triangle], normal) >= static_cast<float>(kLeastCosine);
+    };
+    const auto hit = nearest.find(glm::vec3(probes[k].position - origin), static_cast<float>(reach), faces);
+    if (!hit) continue;
+    glm::dvec3 b{0.0};
+    if (hit->triangle < target.displayed) {
+      for (int corner = 0; corner < 3; ++corner)
+        b += static_cast<double>(hit->weights[corner]) *
+             at(target.corners[3 * hit->triangle + static_cast<std::uint32_t>(corner)]);
+    }
+    answers[k] = b;
+  }
+  return answers;
+}
+
 double requiredNumber(const CsvTable& table, std::size_t row, std::size_t column) {
   const std::optional<double> value = table.number(row, column);
   if (!value || !std::isfinite(*value)) {
@@ -102,27 +127,30 @@ std::vector<Probe> readProbes(const std::filesystem::path& path) {
 std::vector<std::optional<glm::dvec3>> answerProbes(const Snapshot& snapshot, std::span<const Probe> probes,
                                                     bool with_ambient) {
   const Mesh& mesh = *snapshot.mesh;
-  const Target target = targetOf(mesh);
-  const NearestTriangle nearest(target.positions, target.corners);
-  const auto reach = static_cast<float>(kReachOfDiagonal * glm::length(mesh.bounds_max - mesh.bounds_min));
-  std::vector<std::optional<glm::dvec3>> answers(probes.size());
-  for (std::size_t k = 0; k < probes.size(); ++k) {
-    const glm::vec3 normal(glm::normalize(probes[k].normal));
-    const auto faces = [&](std::uint32_t triangle) {
-      return glm::dot(target.normals[triangle], normal) >= static_cast<float>(kLeastCosine);
-    };
-    const auto hit = nearest.find(glm::vec3(probes[k].position - mesh.frame_origin), reach, faces);
-    if (!hit) continue;
-    glm::dvec3 b{0.0};
-    if (hit->triangle < target.displayed) {
-      for (int corner = 0; corner < 3; ++corner) {
-        const std::uint32_t vertex = target.corners[3 * hit->triangle + static_cast<std::uint32_t>(corner)];
-        b += static_cast<double>(hit->weights[corner]) * radiosity(snapshot, vertex, with_ambient);
-      }
-    }
-    answers[k] = b;
+  const double reach = kReachOfDiagonal * glm::length(mesh.bounds_max - mesh.bounds_min);
+  return answer(targetOf(mesh), reach, mesh.frame_origin, probes,
+                [&](std::uint32_t vertex) { return radiosity(snapshot, vertex, with_ambient); });
+}
+
+std::vector<std::optional<glm::dvec3>> answerProbes(const PlySolution& solution,
+                                                    std::span<const Probe> probes) {
+  if (solution.triangles.empty())
+    throw Error(ErrorKind::kInput, "the PLY file has no triangles", {},
+                "a file written by unshot solve --ply");
+  glm::dvec3 low = solution.positions.front(), high = low;
+  for (const glm::dvec3& p : solution.positions) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
   }
-  return answers;
+  // About the middle, where single precision is finest.
+  const glm::dvec3 origin = 0.5 * (low + high);
+  Target target;
+  for (const glm::dvec3& p : solution.positions) target.positions.emplace_back(p - origin);
+  for (std::size_t k = 0; k + 2 < solution.triangles.size(); k += 3)
+    target.add(solution.triangles[k], solution.triangles[k + 1], solution.triangles[k + 2]);
+  target.displayed = target.normals.size();
+  return answer(target, kReachOfDiagonal * glm::length(high - low), origin, probes,
+                [&](std::uint32_t vertex) { return solution.radiosity[vertex]; });
 }
 
 std::string probeCsv(std::span<const Probe> probes, std::span<const std::optional<glm::dvec3>> answers) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "export/ply.h"
 #include "session/snapshot.h"
 
 namespace unshot {
@@ -28,6 +29,10 @@ std::vector<Probe> readProbes(const std::filesystem::path& path);
 /// Nothing for a probe farther than 1/500 of the scene's diagonal from every such side.
 std::vector<std::optional<glm::dvec3>> answerProbes(const Snapshot& snapshot, std::span<const Probe> probes,
                                                     bool with_ambient);
+
+/// The same of a PLY solution. Throws Error (kInput) where it has no triangles.
+std::vector<std::optional<glm::dvec3>> answerProbes(const PlySolution& solution,
+                                                    std::span<const Probe> probes);
 
 /// "x,y,z,nx,ny,nz,B_r,B_g,B_b" with a header, the same rows in the same order; the last three empty where
 /// there is no answer.

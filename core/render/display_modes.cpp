@@ -5,7 +5,7 @@
 namespace unshot {
 
 std::span<const DisplayMode> displayModes() {
-  static constexpr std::array<DisplayMode, 9> table = {{
+  static constexpr std::array<DisplayMode, 10> table = {{
       {.info = {"radiosity", "Radiosity", "light as it leaves the surfaces, B = E + rho H, smooth"}},
       {.info = {"flat", "Radiosity per element", "each element in its own radiosity, as the solver sees it"},
        .per_element = true},
@@ -24,6 +24,13 @@ std::span<const DisplayMode> displayModes() {
       {.info = {"residual", "Error of the mesh",
                 "where the mesh is worst: residual of the continuous equation at random points"},
        .quantity = Quantity::kResidual},
+      {.info =
+           {"difference", "Difference",
+            "what is shown minus what was remembered, else minus direct light: brighter is orange, darker "
+            "blue"},
+       .quantity = Quantity::kDifference,
+       .tone_mapped = false,
+       .exposed = false},
       {.info = {"mesh", "Mesh", "radiosity with the edges of the elements"}, .edges = true},
   }};
   return table;

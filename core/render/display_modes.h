@@ -16,7 +16,8 @@ enum class Quantity {
   kEmission = 3,
   kReflectance = 4,
   kBounces = 5,
-  kResidual = 6
+  kResidual = 6,
+  kDifference = 7
 };
 
 struct DisplayMode {
@@ -25,6 +26,7 @@ struct DisplayMode {
   bool per_element = false;  ///< the element's own value all over it, instead of interpolated
   bool edges = false;        ///< element edges drawn over it
   bool tone_mapped = true;   ///< exposed automatically and tone-mapped; else 1 is white
+  bool exposed = true;       ///< ViewOptions::exposure_ev applies
 };
 
 std::span<const DisplayMode> displayModes();

@@ -141,7 +141,12 @@ Picture drawPicture(gl::Context& context, const Snapshot& snapshot, const Pictur
   const StateGuard guard(context.functions());
   SceneView view(context);
   view.setSnapshot(snapshot);
-  ViewOptions how{options.display, options.exposure_ev, options.ambient, kSamplesAlongPixel, {}};
+  ViewOptions how;
+  how.display = options.display;
+  how.exposure_ev = options.exposure_ev;
+  how.ambient = options.ambient;
+  how.supersampling = kSamplesAlongPixel;
+  how.reference = options.reference;
   how.automatic_exposure =
       view.exposureFor(picture.camera, static_cast<double>(options.width) / options.height, how);
   picture.exposure = *how.automatic_exposure * std::exp2(options.exposure_ev);

@@ -7,6 +7,7 @@
 
 #include "base/image.h"
 #include "render/camera.h"
+#include "render/reference_light.h"
 #include "session/snapshot.h"
 
 namespace unshot {
@@ -24,11 +25,12 @@ struct PictureOptions {
   // In the coordinates of the scene's file. What is not given is chosen by looking at the scene
   // (automatic_camera.h).
   std::optional<glm::dvec3> eye, at, up;
-  std::optional<double> fov_deg;      ///< vertical
-  std::string display = "radiosity";  ///< key of a display mode
-  double exposure_ev = 0;             ///< stops relative to the automatic exposure
-  bool ambient = false;               ///< add the ambient term
-  bool linear = true;                 ///< fill Picture::linear too (12 bytes a pixel)
+  std::optional<double> fov_deg;                    ///< vertical
+  std::string display = "radiosity";                ///< key of a display mode
+  double exposure_ev = 0;                           ///< stops relative to the automatic exposure
+  bool ambient = false;                             ///< add the ambient term
+  std::shared_ptr<const ReferenceLight> reference;  ///< as ViewOptions::reference
+  bool linear = true;                               ///< fill Picture::linear too (12 bytes a pixel)
 };
 
 struct Picture {

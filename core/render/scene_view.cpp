@@ -48,12 +48,28 @@ void sendAll(Uploads& uploads, const gl::Buffer& buffer, std::shared_ptr<const s
   });
 }
 
+// A field of `count` values at once: what is shown on demand.
+template <class Value>
+void send(const gl::Buffer& buffer, std::shared_ptr<const std::vector<glm::vec3>> field, std::size_t count) {
+  allocate(buffer.fn(), buffer, std::max<std::size_t>(count, 1) * sizeof(Value), GL_DYNAMIC_DRAW);
+  Uploads uploads;
+  uploads.add<Value>(buffer, count, finiteValues<Value>(std::move(field)));
+  uploads.some(uploads.bytes());
+}
+
 void attribute(const gl::Functions& fn, GLuint location, const gl::Buffer& buffer, std::size_t stride,
                std::size_t offset) {
   fn.BindBuffer(GL_ARRAY_BUFFER, buffer.id());
   fn.EnableVertexAttribArray(location);
   fn.VertexAttribPointer(location, 3, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
                          reinterpret_cast<const void*>(offset));
+}
+
+void attachTexels(const gl::Functions& fn, const gl::Texture& texture, GLenum format,
+                  const gl::Buffer& buffer) {
+  fn.BindTexture(GL_TEXTURE_BUFFER, texture.id());
+  fn.TexBuffer(GL_TEXTURE_BUFFER, format, buffer.id());
+  fn.BindTexture(GL_TEXTURE_BUFFER, 0);
 }
 
 void checkTexels(const gl::Functions& fn, std::size_t texels) {
@@ -89,16 +105,20 @@ SceneView::SceneView(gl::Context& context)
       unshot_(context),
       bounces_(context),
       residual_(context),
+      bounce_irradiance_(context),
+      reference_(context),
       triangles_(context),
       edges_(context),
       sides_(context),
       triangle_elements_(context),
       element_irradiance_(context),
       element_direct_(context),
+      element_bounce_(context),
       sides_texture_(context),
       triangle_elements_texture_(context),
       element_irradiance_texture_(context),
-      element_direct_texture_(context) {}
+      element_direct_texture_(context),
+      element_bounce_texture_(context) {}
 
 void SceneView::setSnapshot(const Snapshot& snapshot) {
   // It is here for as long as the upload takes.
@@ -112,6 +132,8 @@ void SceneView::beginSnapshot(const std::shared_ptr<const Snapshot>& snapshot) {
   field_uploads_.clear();
   if (snapshot->mesh != mesh_) {
     beginMesh(snapshot->mesh);
+    bounce_field_.reset();
+    reference_light_.reset();
     all = true;
   }
   const auto own = [&](const std::vector<glm::vec3>& field) {
@@ -128,6 +150,8 @@ void SceneView::beginSnapshot(const std::shared_ptr<const Snapshot>& snapshot) {
     if (all || uploaded != field) field_uploads_.add<Value>(buffer, count, finiteValues<Value>(field));
     uploaded = field;
   };
+  if (all || direct_field_ != snapshot->direct) direct_reference_.reset();
+  bounce_light_ = snapshot->bounce_light;
   shared(direct_, vertices, direct_field_, snapshot->direct, glm::vec3());
   shared(element_direct_, elements, element_direct_field_, snapshot->element_direct, glm::vec4());
   shared(bounces_, vertices, bounces_field_, snapshot->bounces, glm::vec3());
@@ -140,9 +164,39 @@ void SceneView::upload(std::size_t bytes) {
   if (mesh_uploads_.done()) field_uploads_.some(bytes - mesh_bytes);
 }
 
+SceneView::LightBuffers SceneView::lightOf(const LightChoice& choice) {
+  if (!choice.indirect) return {direct_, element_direct_texture_};
+  const std::shared_ptr<const MeshField> field = bounceField(bounce_light_, choice);
+  if (!field) return {irradiance_, element_irradiance_texture_};
+  if (field != bounce_field_) {
+    const gl::Functions& fn = context_.functions();
+    send<glm::vec3>(bounce_irradiance_, SharedField(field, &field->vertices), mesh_->vertices.size());
+    send<glm::vec4>(element_bounce_, SharedField(field, &field->elements), mesh_->element_count);
+    attachTexels(fn, element_bounce_texture_, GL_RGBA32F, element_bounce_);
+    bounce_field_ = field;
+  }
+  return {bounce_irradiance_, element_bounce_texture_};
+}
+
+void SceneView::useReference(const ViewOptions& options) {
+  const bool fits = options.reference && options.reference->mesh == mesh_;
+  if (!fits && !direct_reference_) {
+    Snapshot direct;
+    direct.mesh = mesh_;
+    direct.direct = direct_field_;
+    direct_reference_ =
+        std::make_shared<const ReferenceLight>(referenceLight(direct, {false, {}}, "direct light alone"));
+  }
+  const auto& wanted = fits ? options.reference : direct_reference_;
+  if (wanted == reference_light_) return;
+  send<glm::vec3>(reference_, SharedField(wanted, &wanted->reflected), mesh_->vertices.size());
+  reference_light_ = wanted;
+}
+
 const gl::Buffer* SceneView::extraField(Quantity quantity) const {
   if (quantity == Quantity::kUnshot) return &unshot_;
   if (quantity == Quantity::kBounces) return &bounces_;
+  if (quantity == Quantity::kDifference) return &reference_;
   return quantity == Quantity::kResidual ? &residual_ : nullptr;
 }
 
@@ -195,15 +249,10 @@ void SceneView::beginMesh(const std::shared_ptr<const Mesh>& shared_mesh) {
   for (const gl::Buffer* field : {&element_irradiance_, &element_direct_}) {
     allocate(fn, *field, std::max<std::size_t>(mesh.element_count, 1) * sizeof(glm::vec4), GL_DYNAMIC_DRAW);
   }
-  const auto attach = [&](const gl::Texture& texture, GLenum format, const gl::Buffer& buffer) {
-    fn.BindTexture(GL_TEXTURE_BUFFER, texture.id());
-    fn.TexBuffer(GL_TEXTURE_BUFFER, format, buffer.id());
-    fn.BindTexture(GL_TEXTURE_BUFFER, 0);
-  };
-  attach(sides_texture_, GL_RGBA32F, sides_);
-  attach(triangle_elements_texture_, GL_R32UI, triangle_elements_);
-  attach(element_irradiance_texture_, GL_RGBA32F, element_irradiance_);
-  attach(element_direct_texture_, GL_RGBA32F, element_direct_);
+  attachTexels(fn, sides_texture_, GL_RGBA32F, sides_);
+  attachTexels(fn, triangle_elements_texture_, GL_R32UI, triangle_elements_);
+  attachTexels(fn, element_irradiance_texture_, GL_RGBA32F, element_irradiance_);
+  attachTexels(fn, element_direct_texture_, GL_RGBA32F, element_direct_);
 }
 
 void SceneView::uploadEdges() {
@@ -240,20 +289,25 @@ void SceneView::drawLinear(const Camera& camera, double aspect, const FrameWindo
 }
 
 void SceneView::useDisplay(const gl::Program& program, const glm::mat4& matrix, const Camera& camera,
-                           const ViewOptions& options) const {
+                           const ViewOptions& options, const gl::Texture& element_light) const {
   const gl::Functions& fn = context_.functions();
   const DisplayMode& mode = displayMode(options.display);
   program.use();
   const glm::vec3 eye(camera.eye);
+  // The ambient term is no part of any solution, so that none is compared with it.
+  const bool with_ambient = options.ambient && options.light.all() && mode.quantity != Quantity::kDifference;
   fn.UniformMatrix4fv(program.uniform("view_projection"), 1, GL_FALSE, glm::value_ptr(matrix));
   fn.Uniform3fv(program.uniform("eye"), 1, glm::value_ptr(eye));
-  fn.Uniform1f(program.uniform("ambient_weight"), options.ambient && options.indirect ? 1.0f : 0.0f);
+  fn.Uniform1f(program.uniform("ambient_weight"), with_ambient ? 1.0f : 0.0f);
   fn.Uniform1i(program.uniform("quantity"), static_cast<int>(mode.quantity));
   fn.Uniform1i(program.uniform("per_element"), mode.per_element);
   bindTexture(fn, program, "sides", 0, GL_TEXTURE_BUFFER, sides_texture_.id());
   bindTexture(fn, program, "triangle_elements", 1, GL_TEXTURE_BUFFER, triangle_elements_texture_.id());
-  bindTexture(fn, program, "element_irradiance", 2, GL_TEXTURE_BUFFER,
-              (options.indirect ? element_irradiance_texture_ : element_direct_texture_).id());
+  bindTexture(fn, program, "element_irradiance", 2, GL_TEXTURE_BUFFER, element_light.id());
+  if (mode.quantity == Quantity::kDifference && reference_light_) {
+    const double mean = reference_light_->mean;
+    fn.Uniform1f(program.uniform("per_mean"), mean > 0 ? finiteValue(1 / mean) : 0.0f);
+  }
 }
 
 void SceneView::drawPieces(const Camera& camera, double aspect, const FrameWindow& window,
@@ -271,8 +325,10 @@ void SceneView::drawPieces(const Camera& camera, double aspect, const FrameWindo
 
   const glm::mat4 matrix = viewProjection(camera, aspect, bounds_, window, depth.range);
   fn.BindVertexArray(vertex_array_.id());
-  // The light that is shown, all or direct, is a matter of which buffer is read.
-  attribute(fn, 3, options.indirect ? irradiance_ : direct_, sizeof(glm::vec3), 0);
+  // The light that is shown is a matter of which buffer is read.
+  const LightBuffers light = lightOf(options.light);
+  attribute(fn, 3, light.vertices, sizeof(glm::vec3), 0);
+  if (mode.quantity == Quantity::kDifference) useReference(options);
   if (const gl::Buffer* extra = extraField(mode.quantity)) attribute(fn, 5, *extra, sizeof(glm::vec3), 0);
   fn.BindBuffer(GL_ARRAY_BUFFER, 0);
   const auto draw = [&](GLenum kind, const gl::Buffer& indices, std::size_t corners, std::size_t first,
@@ -286,13 +342,13 @@ void SceneView::drawPieces(const Camera& camera, double aspect, const FrameWindo
   if (pieces.first < triangles) {
     const bool by_pixel = mode.per_element || extraField(mode.quantity);
     const gl::Program& program = by_pixel ? by_pixel_program_ : display_program_;
-    useDisplay(program, matrix, camera, options);
+    useDisplay(program, matrix, camera, options, light.elements);
     fn.Uniform1i(program.uniform("edges"), 0);
     fn.Uniform1i(program.uniform("first_triangle"), static_cast<GLint>(pieces.first));
     draw(GL_TRIANGLES, triangles_, 3, pieces.first, std::min(end, triangles));
   }
   if (end > triangles) {
-    useDisplay(by_pixel_program_, matrix, camera, options);
+    useDisplay(by_pixel_program_, matrix, camera, options, light.elements);
     fn.Uniform1i(by_pixel_program_.uniform("edges"), 1);
     fn.Enable(GL_CLIP_DISTANCE0);
     draw(GL_LINES, edges_, 2, std::max(pieces.first, triangles) - triangles, end - triangles);
@@ -316,7 +372,8 @@ void SceneView::resolve(const LinearTarget& samples, double automatic_exposure, 
                         const Viewport& viewport, int first_row) {
   const gl::Functions& fn = context_.functions();
   const DisplayMode& mode = displayMode(options.display);
-  const double scale = automatic_exposure * std::exp2(std::clamp(options.exposure_ev, -200.0, 200.0));
+  const double stops = mode.exposed ? std::clamp(options.exposure_ev, -200.0, 200.0) : 0;
+  const double scale = automatic_exposure * std::exp2(stops);
   const gl::Program& program = resolve_program_;
   setPassState(fn, false);
   fn.Viewport(viewport.x, viewport.y, viewport.width, viewport.height);

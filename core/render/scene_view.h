@@ -13,6 +13,7 @@
 #include "gl/objects.h"
 #include "render/camera.h"
 #include "render/display_modes.h"
+#include "render/reference_light.h"
 #include "render/targets.h"
 #include "render/uploads.h"
 #include "session/snapshot.h"
@@ -27,9 +28,11 @@ struct ViewOptions {
   int supersampling = 1;              ///< samples along a pixel's side
   /// Keeps this automatic exposure (what `draw` returned) instead of finding it again.
   std::optional<double> automatic_exposure;
-  /// All light. Without it only what comes straight from emitters, B = E + rho H_d: the picture without
-  /// radiosity, and without the ambient term.
-  bool indirect = true;
+  /// Which light is shown. Where not all is, the ambient term is left out.
+  LightChoice light;
+  /// What the display mode `difference` compares with, where it is of the mesh that is drawn; else direct
+  /// light alone.
+  std::shared_ptr<const ReferenceLight> reference;
 };
 
 /// A rectangle of the bound framebuffer [px], from its lower left.
@@ -87,11 +90,18 @@ class SceneView {
   using SharedField = std::shared_ptr<const std::vector<glm::vec3>>;
 
   void beginMesh(const std::shared_ptr<const Mesh>& mesh);
+  /// Where the light that is meant is, brought up to date.
+  struct LightBuffers {
+    const gl::Buffer& vertices;
+    const gl::Texture& elements;
+  };
+  LightBuffers lightOf(const LightChoice& choice);
+  void useReference(const ViewOptions& options);
   /// The buffer with what this quantity shows besides the light; null where that is all.
   const gl::Buffer* extraField(Quantity quantity) const;
   void uploadEdges();
   void useDisplay(const gl::Program& program, const glm::mat4& matrix, const Camera& camera,
-                  const ViewOptions& options) const;
+                  const ViewOptions& options, const gl::Texture& element_light) const;
   const LinearTarget& target(LinearTarget& kept, int width, int height);
 
   gl::Context& context_;
@@ -101,11 +111,16 @@ class SceneView {
   Bounds bounds_;
   gl::Program display_program_, by_pixel_program_, resolve_program_;
   gl::VertexArray vertex_array_, no_attributes_;
-  gl::Buffer vertices_, irradiance_, direct_, ambient_, unshot_, bounces_, residual_;
+  std::shared_ptr<const BounceLight> bounce_light_;         // of the snapshot
+  std::shared_ptr<const MeshField> bounce_field_;           // as uploaded
+  std::shared_ptr<const ReferenceLight> direct_reference_;  // where there is no other
+  std::shared_ptr<const ReferenceLight> reference_light_;   // as uploaded
+  gl::Buffer vertices_, irradiance_, direct_, ambient_, unshot_, bounces_, residual_, bounce_irradiance_,
+      reference_;
   gl::Buffer triangles_, edges_;
-  gl::Buffer sides_, triangle_elements_, element_irradiance_, element_direct_;
+  gl::Buffer sides_, triangle_elements_, element_irradiance_, element_direct_, element_bounce_;
   gl::Texture sides_texture_, triangle_elements_texture_, element_irradiance_texture_,
-      element_direct_texture_;
+      element_direct_texture_, element_bounce_texture_;
   LinearTarget samples_, small_;
   GLsizei triangle_index_count_ = 0;
   GLsizei edge_index_count_ = 0;

@@ -54,6 +54,11 @@ void ErrorBudget::columnComputed(std::uint32_t q, const Column& column) {
   credit_ += kShare * kColumnWork;
 }
 
+void ErrorBudget::restart() {
+  shots_ = 0;
+  now_ = bounds_.at();
+}
+
 const SolverBounds& ErrorBudget::update(std::uint64_t shots) {
   const Timed timed(seconds_);
   const auto entries = static_cast<double>(matrix_.entryCount());

@@ -21,6 +21,8 @@ class ErrorBudget {
 
   /// To be called with each column of the transport, new or better.
   void columnComputed(std::uint32_t q, const Column& column);
+  /// The state shoots again from nothing; the matrix stays.
+  void restart();
   /// The bounds of the present state, after `shots` shots. They are worked out more sharply as often as a
   /// small share of the solver's work allows, counted in operations, so that a solve is the same each time.
   const SolverBounds& update(std::uint64_t shots);

@@ -9,12 +9,6 @@
 
 namespace unshot {
 
-/// A field on a mesh [W/m^2].
-struct MeshField {
-  std::vector<glm::vec3> vertices;  ///< one per vertex
-  std::vector<glm::vec3> elements;  ///< one per element
-};
-
 /// A field on receivers (one value each) at the vertices and on the elements: where one of the two is not
 /// what the receivers are, interpolated or averaged.
 MeshField makeField(const Mesh& mesh, const Receivers& receivers, const std::vector<glm::dvec3>& values);

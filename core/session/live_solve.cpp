@@ -101,10 +101,27 @@ void LiveSolve::step() {
 bool LiveSolve::hasSpareWork() const {
   if (!solve_ || broken_ || running() || !task_.empty() || solve_->measures().shots == 0) return false;
   if (!std::isfinite(solve_->measures().unshot_fraction)) return false;
+  if (hasBounceWork()) return true;
   return !no_more_places_ && (estimates_stale_ || solve_->places() < kPlacesAtRest);
 }
 
-void LiveSolve::estimate() {
+bool LiveSolve::hasBounceWork() const {
+  return !no_more_bounces_ && solve_->hasBouncesToWorkOut(complete_bounces_);
+}
+
+void LiveSolve::workOutBounces() {
+  try {
+    if (!solve_->workOutBounces(complete_bounces_)) return;
+  } catch (...) {
+    noteException();
+    no_more_bounces_ = true;
+  }
+  stale_ = true;
+  if (!hasBounceWork() || pace_.due(wallSeconds(), *setup_.interval)) publish();
+}
+
+void LiveSolve::spareWork() {
+  if (hasBounceWork()) return workOutBounces();
   estimateFrom(std::min(kPlacesAtOnce, kPlacesAtRest - std::min(kPlacesAtRest, solve_->places())));
   publish();
 }
@@ -171,6 +188,20 @@ void LiveSolve::perform(const command::SetError& c) {
   facts_ = factsOf(*solve_, facts_->load_seconds);
 }
 
+void LiveSolve::perform(const command::CompleteBounces&) {
+  usable();
+  complete_bounces_ = true;
+}
+
+void LiveSolve::perform(const command::ShootAgain&) {
+  usable().again();
+  history_.reset();
+  failure_noted_ = false;
+  stale_ = estimates_stale_ = true;
+  pace_ = {};
+  ++epoch_;
+}
+
 SessionPhase LiveSolve::phase() const {
   if (!task_.empty()) return SessionPhase::kLoading;
   if (!solve_) return SessionPhase::kEmpty;
@@ -220,7 +251,7 @@ void LiveSolve::begin(Scene scene, const SolveOptions& options, double load_seco
   broken_.reset();
   failure_noted_ = paused_ = stale_ = estimates_stale_ = false;
   estimate_seconds_ = 0;
-  no_more_places_ = false;
+  no_more_places_ = complete_bounces_ = no_more_bounces_ = false;
   steps_left_ = 0;
   ++epoch_;
 }
@@ -295,6 +326,7 @@ void LiveSolve::fill(SessionState& state) const {
   state.estimates = solve_->estimates();
   state.radius_lower = solve_->bounds().spectralRadiusLower();
   state.radius_upper = solve_->bounds().spectralRadiusUpper();
+  state.bounces_under_way = !broken_ && hasBounceWork();
   state.stopped_by = broken_.value_or(solve_->stoppedBy());
 }
 

@@ -36,10 +36,13 @@ struct SetMode {
 struct SetError {
   double error;
 };
+struct CompleteBounces {};
+struct ShootAgain {};
 }  // namespace command
 
-using Command = std::variant<command::Open, command::Restart, command::Pause, command::Resume, command::Step,
-                             command::SetMode, command::SetError>;
+using Command =
+    std::variant<command::Open, command::Restart, command::Pause, command::Resume, command::Step,
+                 command::SetMode, command::SetError, command::CompleteBounces, command::ShootAgain>;
 
 /// Whether loading for `command` is in vain, since `later` loads another scene or the same one again.
 bool isSuperseded(const Command& command, const Command& later);
@@ -67,10 +70,10 @@ class LiveSolve {
   bool running() const { return phase() == SessionPhase::kRunning; }
   /// One step of the solve; publishes where due.
   void step();
-  /// Whether estimate() has something to do while nothing else has.
+  /// Whether spareWork() has something to do while nothing else has.
   bool hasSpareWork() const;
-  /// Errors estimated from more places; publishes.
-  void estimate();
+  /// Light by bounces, then errors estimated from more places; publishes where there is news.
+  void spareWork();
 
  private:
   void perform(const command::Open& c);
@@ -80,6 +83,8 @@ class LiveSolve {
   void perform(const command::Step& c);
   void perform(const command::SetMode& c);
   void perform(const command::SetError& c);
+  void perform(const command::CompleteBounces&);
+  void perform(const command::ShootAgain&);
 
   SessionPhase phase() const;
   gl::Context& context();
@@ -87,6 +92,8 @@ class LiveSolve {
   void begin(Scene scene, const SolveOptions& options, double load_seconds);
   void announce(const std::string& task);
   void settle();
+  bool hasBounceWork() const;
+  void workOutBounces();
   void estimateInPassing();
   void estimateFrom(std::size_t more_places);
   void note(Error problem);
@@ -105,10 +112,11 @@ class LiveSolve {
   std::uint64_t steps_left_ = 0;  // before a pause; 0: no pause is due
   std::string task_;              // not empty while loading
   PublishPace pace_;
-  bool stale_ = false;            // the solve has gone on since the snapshot
-  bool estimates_stale_ = false;  // and since the estimates
-  double estimate_seconds_ = 0;   // spent on them while running
-  bool no_more_places_ = false;   // the scene has none, or estimating failed
+  bool stale_ = false;                                       // the solve has gone on since the snapshot
+  bool estimates_stale_ = false;                             // and since the estimates
+  double estimate_seconds_ = 0;                              // spent on them while running
+  bool no_more_places_ = false;                              // the scene has none, or estimating failed
+  bool complete_bounces_ = false, no_more_bounces_ = false;  // asked for; working them out failed
 
   std::uint64_t version_ = 0, epoch_ = 0, commands_ = 0, problems_ = 0;
   std::optional<Error> problem_;

@@ -66,7 +66,7 @@ void Session::Impl::run() {
       else if (live.running() && !closing)
         live.step();
       else if (!command && !closing && live.hasSpareWork())
-        live.estimate();
+        live.spareWork();
     } catch (const std::bad_alloc&) {
     }
   }
@@ -103,6 +103,8 @@ void Session::open(std::filesystem::path scene, SolveOptions options) {
 
 void Session::restart(SolveOptions options) { impl_->send(command::Restart{std::move(options)}); }
 
+void Session::shootAgain() { impl_->send(command::ShootAgain{}); }
+
 void Session::pause() { impl_->send(command::Pause{}); }
 
 void Session::resume() { impl_->send(command::Resume{}); }
@@ -112,6 +114,8 @@ void Session::step(std::uint64_t shots) { impl_->send(command::Step{shots}); }
 void Session::setMode(std::string key) { impl_->send(command::SetMode{std::move(key)}); }
 
 void Session::setError(double error) { impl_->send(command::SetError{error}); }
+
+void Session::completeBounces() { impl_->send(command::CompleteBounces{}); }
 
 std::uint64_t Session::sent() const {
   const std::lock_guard lock(impl_->mutex);

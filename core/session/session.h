@@ -41,7 +41,7 @@ struct SolveFacts {
 /// One moment of the session. Everything it points to is immutable.
 struct SessionState {
   std::uint64_t version = 0;   ///< one more at each publication
-  std::uint64_t epoch = 0;     ///< one more at each new mesh; 0: none yet
+  std::uint64_t epoch = 0;     ///< one more where shots count from 0 again; 0: none yet
   std::uint64_t commands = 0;  ///< how many of the commands sent are carried out
   SessionPhase phase = SessionPhase::kEmpty;
   std::string task;                         ///< while loading: what is being done, such as "reading room.obj"
@@ -52,12 +52,13 @@ struct SessionState {
   ErrorEstimates estimates;  ///< refined while nothing else is to be done
   /// Bracket of the spectral radius of M, per channel; upper infinite where it is not known.
   glm::dvec3 radius_lower{0.0}, radius_upper{kNoBound};
-  double progress = 0;           ///< Solve::progress
-  std::size_t kept_bytes = 0;    ///< memory held by kept columns
-  std::uint64_t drawn = 0;       ///< hemicubes drawn
-  std::string stopped_by;        ///< Solve::stoppedBy, or what a step threw
-  std::uint64_t problems = 0;    ///< how many commands or solves have failed so far
-  std::optional<Error> problem;  ///< the last failure
+  bool bounces_under_way = false;  ///< light by bounces is being worked out, or will be once the solve rests
+  double progress = 0;             ///< Solve::progress
+  std::size_t kept_bytes = 0;      ///< memory held by kept columns
+  std::uint64_t drawn = 0;         ///< hemicubes drawn
+  std::string stopped_by;          ///< Solve::stoppedBy, or what a step threw
+  std::uint64_t problems = 0;      ///< how many commands or solves have failed so far
+  std::optional<Error> problem;    ///< the last failure
 };
 
 struct SessionSetup {
@@ -89,6 +90,8 @@ class Session {
   /// The present scene as it was read, from the start, with these options; open() reads the file again.
   /// Another restart that is not ready is given up.
   void restart(SolveOptions options);
+  /// The present solve from nothing shot, on the same mesh and with the form factors at hand.
+  void shootAgain();
   void pause();
   void resume();
   /// `shots` more steps, added to those still due, then a pause; 0 where none are due: a pause.
@@ -98,6 +101,9 @@ class Session {
   /// Another error to aim for (SolveOptions::error): a converged solve that has not reached it runs again,
   /// one that has converges at once.
   void setError(double error);
+  /// While the present solve rests: computes the form factors that light by bounces still waits for
+  /// (Snapshot::bounce_wait). Where none are missing it needs no asking.
+  void completeBounces();
 
   /// How many commands were sent so far; they are carried out when latest()->commands says the same.
   std::uint64_t sent() const;

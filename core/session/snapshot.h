@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -21,9 +22,31 @@ struct Measures {
   std::uint64_t refined = 0;   ///< drafts that were replaced
   double unshot_fraction = 1;  ///< sum A |U| / sum A E over patches and channels
   SolverBounds bounds;         ///< of the solver's error
+  /// That error itself, as bounds.upper counts it: once the mode `direct` has solved this system.
+  std::optional<double> true_error;
   /// The figure that SolveOptions::error is held against: bounds.upper where there is one, else
   /// bounds.total_upper.
   double solverBound() const { return bounds.upper < kNoBound ? bounds.upper : bounds.total_upper; }
+};
+
+/// A field on a mesh [W/m^2].
+struct MeshField {
+  std::vector<glm::vec3> vertices;  ///< one per vertex
+  std::vector<glm::vec3> elements;  ///< one per element
+};
+
+/// Light by bounces, B = B_0 + B_1 + ... with B_0 = E.
+struct BounceLight {
+  std::vector<glm::dvec3> power;  ///< sum A B_k per channel [W], of E and each bounce that is known
+  /// H with the light of the first 1, 2, ... bounces: E + rho H is what they show. May be shorter than
+  /// `power`: only the first bounces have the room.
+  std::vector<std::shared_ptr<const MeshField>> received;
+};
+
+/// What light by bounces still waits for.
+struct BounceWait {
+  std::size_t columns = 0;  ///< of form factors that light needs and that are not kept
+  bool no_room = false;     ///< and cannot be: they do not fit into SolveOptions::kept_bytes
 };
 
 /// One state of a solve. Fields are per display vertex of `mesh`; radiosity is B = E + rho (irradiance +
@@ -46,6 +69,9 @@ struct Snapshot {
   /// Where the mesh is worst: RMS residual of the continuous equation [W/m^2], one per vertex (all channels
   /// alike); null where it is not known.
   std::shared_ptr<const std::vector<glm::vec3>> residual;
+  /// Light by bounces; null where it is not known (yet).
+  std::shared_ptr<const BounceLight> bounce_light;
+  BounceWait bounce_wait;
   Measures measures;
 };
 

@@ -6,8 +6,10 @@
 #include "base/clock.h"
 #include "formfactor/methods.h"
 #include "gl/context.h"
+#include "session/bounces.h"
 #include "session/error_budget.h"
 #include "session/fields.h"
+#include "session/known_solution.h"
 #include "session/plan.h"
 #include "session/stagnation.h"
 #include "solver/ambient.h"
@@ -15,6 +17,9 @@
 
 namespace unshot {
 namespace {
+
+// Unshot power over emitted power that a direct solution leaves at most.
+constexpr double kSolved = 1e-10;
 
 void checkError(double error) {
   if (error > 0 && error < 1) return;
@@ -46,6 +51,9 @@ struct Solve::Impl {
   std::unique_ptr<IterationMode> mode;  // made anew where columns have changed: it may hold products of them
   std::unique_ptr<AmbientTerm> ambient;
   std::unique_ptr<ErrorBudget> budget;
+  std::unique_ptr<Bounces> bounces_of_light;
+  KnownSolution known_solution;
+  std::uint64_t rows_before = 0;  // computed before the solve shot again
 
   SolveState progress_state = SolveState::kRunning;
   std::string stopped_by;
@@ -70,6 +78,7 @@ struct Solve::Impl {
   void stop(SolveState how, std::string why);
   void fail(ErrorKind kind, std::string why, std::string advice);
   void wakeClocks();
+  void learnSolution();
   void measure();
   bool reached();
   void checkLimits();
@@ -106,6 +115,7 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl, const CancelT
     ambient->sees(q, column, transport->receivers());
     budget->columnComputed(q, column);
   });
+  bounces_of_light = std::make_unique<Bounces>(mesh, *transport, *state);
   chooseMode(options.mode);
   solve_start = wallSeconds();
   if (state->emittedPower() <= 0) {
@@ -137,11 +147,16 @@ void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl, const C
   Receivers receivers = makeReceivers(*mesh, method->receiverKind(), cancel);
   transport = std::make_unique<Transport>(std::move(method), std::move(receivers), mesh->patch_area,
                                           options.kept_bytes);
-  transport->allowDrafts(options.draft_first);
+  transport->allowDrafts(options.draft_first && !options.bounces);
 }
 
 void Solve::Impl::chooseMode(const std::string& key) {
-  const std::string chosen = key == "auto" ? "southwell" : key;
+  const std::string chosen = key != "auto" ? key : options.bounces ? "jacobi" : "southwell";
+  if (options.bounces && chosen != "jacobi") {
+    throw Error(ErrorKind::kUsage,
+                "light of a number of bounces takes the mode 'jacobi', not '" + chosen + "'", {},
+                "no --mode, or no --bounces");
+  }
   const IterationModeRow& row = findChoice(iterationModes(), chosen, "iteration mode");
   const std::string reason = row.unavailable(modeSetup(mesh->element_count, state->reflectance()));
   if (!reason.empty()) {
@@ -176,7 +191,8 @@ void Solve::Impl::measure() {
   measured_cpu = cpuSeconds();
   measures.seconds = measured_wall - solve_start;
   measures.cpu_seconds = measured_cpu - cpu_start - cpu_setup;
-  measures.rows = transport->computed();
+  measures.rows = transport->computed() - rows_before;
+  measures.true_error = known_solution.errorOf(*state, *transport);
   measures.drafts = transport->draftCount();
   measures.refined = transport->refined();
   const double emitted = state->emittedPower();
@@ -190,10 +206,16 @@ void Solve::Impl::measure() {
   seconds.cpu_solve = measures.cpu_seconds;
 }
 
+// What the mode `direct` has found; another mode's state is exact to no known digit.
+void Solve::Impl::learnSolution() {
+  if (mode_key != "direct" || known_solution.known(*transport)) return;
+  if (state->unshotPower() <= kSolved * state->emittedPower()) known_solution.learn(*state, *transport);
+}
+
 void Solve::Impl::checkLimits() {
   if (!std::isfinite(measures.unshot_fraction)) {
     fail(ErrorKind::kInternal, "a value is no longer finite", "another --mode or --form-factors");
-  } else if (reached()) {
+  } else if (!options.bounces && reached()) {
     stop(SolveState::kConverged, measures.bounds.upper < kNoBound ? "solver_upper" : "solver_total_upper");
   } else if (options.max_shots && measures.shots >= *options.max_shots) {
     stop(SolveState::kLimit, "max_shots");
@@ -211,13 +233,14 @@ bool Solve::Impl::reached() {
 }
 
 void Solve::Impl::checkStagnation() {
-  if (!stagnation.found(measures, mesh->patch_count)) return;
+  if (options.bounces || !stagnation.found(measures, mesh->patch_count)) return;
   if (nothingDiesOut(*state)) {
     fail(ErrorKind::kInput,
          "no finite solution: the walls that the light reaches reflect all of it (reflectance 1) and let "
          "none out, so "
          "it never dies out",
-         "a reflectance (Kd) below 1 for some wall, or --max-shots N for the light of a number of bounces");
+         "a reflectance (Kd) below 1 for some wall, or --bounces N (or --max-shots N) for the light of a "
+         "number of bounces");
   } else {
     fail(ErrorKind::kInternal, "stagnation: the unshot power does not fall",
          "another --mode or --form-factors");
@@ -266,7 +289,7 @@ ColumnQuality Solve::Impl::leastQuality() const {
 
 // A step of the mode; one that cannot go on ends the solve as failed, with what it has.
 std::optional<std::size_t> Solve::Impl::iterate() {
-  if (!mode) mode = mode_row->make();
+  if (!mode) mode = options.bounces ? makeBounces(*options.bounces) : mode_row->make();
   try {
     return mode->step(*state, *transport);
   } catch (const IterationFailure& problem) {
@@ -299,14 +322,35 @@ void Solve::step() {
     refined = !nothing_left;
     if (refined) s.refineBrightest();
   }
+  s.learnSolution();
   s.measure();
   if (refined) s.stagnation.restart(s.measures);  // a better column brings unshot light of its own
   if (s.progress_state == SolveState::kRunning) s.checkLimits();
   if (s.progress_state == SolveState::kLimit || nothing_left) s.measures.bounds = s.budget->sharpen();
   if (s.progress_state == SolveState::kRunning && nothing_left)
-    s.stop(SolveState::kConverged, "nothing unshot");
+    s.stop(SolveState::kConverged,
+           s.options.bounces && !s.state->onlyRoundingUnshot() ? "bounces" : "nothing unshot");
   if (s.progress_state == SolveState::kRunning) s.checkStagnation();
   s.record();
+}
+
+void Solve::again() {
+  Impl& s = *impl_;
+  s.state->reset();
+  s.budget->restart();
+  s.mode.reset();
+  s.direct = s.element_direct = nullptr;
+  s.failure.reset();
+  s.mode_failed = s.refining = s.resting = false;
+  s.rows_before = s.transport->computed();
+  s.measures.shots = 0;
+  s.solve_start = wallSeconds();
+  s.cpu_start = cpuSeconds() - s.cpu_setup;
+  s.stop(SolveState::kRunning, {});
+  if (s.state->emittedPower() <= 0) s.stop(SolveState::kConverged, "no light");
+  s.measure();
+  s.history.assign(1, {s.measures});
+  s.stagnation.restart(s.measures);
 }
 
 void Solve::setMode(const std::string& key) {
@@ -349,6 +393,21 @@ const ErrorEstimates& Solve::estimate(std::size_t more_places) {
   return s.budget->estimates();
 }
 
+bool Solve::hasBouncesToWorkOut(bool compute) const { return impl_->bounces_of_light->hasWork(compute); }
+
+bool Solve::workOutBounces(bool compute) {
+  Impl& s = *impl_;
+  const double cpu_began = cpuSeconds();
+  rest();
+  const bool news = s.bounces_of_light->advance(compute);
+  s.measures.rows = s.transport->computed() - s.rows_before;
+  // All columns are there now, which bounds and the spectral radius may have waited for.
+  if (news && !s.bounces_of_light->hasWork(compute))
+    s.measures.bounds = SolverBounds::tighter(s.measures.bounds, s.budget->sharpen());
+  s.seconds.cpu_solve += cpuSeconds() - cpu_began;
+  return news;
+}
+
 std::size_t Solve::places() const { return impl_->budget->places(); }
 
 double Solve::errorSeconds() const { return impl_->budget->seconds(); }
@@ -382,6 +441,12 @@ Snapshot Solve::snapshot() const {
     impl_->bounces_revision = s.budget->bounds().revision();
   }
   out.bounces = s.bounces;
+  out.bounce_light = s.bounces_of_light->light();
+  if (!out.bounce_light && s.mode) {
+    std::vector<glm::dvec3> powers = s.mode->bouncePowers();
+    if (powers.size() > 1) out.bounce_light = std::make_shared<const BounceLight>(BounceLight{powers, {}});
+  }
+  out.bounce_wait = s.bounces_of_light->wait();
   out.residual = s.residual;
   out.direct = s.direct;
   out.element_direct = s.element_direct;

@@ -33,6 +33,9 @@ struct SolveOptions {
   double error = 0.01;  ///< stop when the bound of the solver's error (Measures::solverBound) is below this
   std::optional<double> max_seconds;
   std::optional<std::uint64_t> max_shots;
+  /// Only the light of so many bounces, E + M E + ... + M^n E, whatever its error: the mode is `jacobi`,
+  /// which ends after as many sweeps, and without drafts.
+  std::optional<std::uint64_t> bounces;
   std::uint64_t seed = 1;
   /// Solves with drafts of the form factors first, where method and mode have use for them, then replaces
   /// them one by one, while the solution stays up to date: a whole picture after a tenth of the columns, the
@@ -87,12 +90,20 @@ class Solve {
   /// Another SolveOptions::error: a running solve (or one at a limit) that has reached it converges at once,
   /// a converged one that has not runs again. Throws a usage Error unless 0 < error < 1.
   void setError(double error);
+  /// Shoots again from nothing in the present mode, with the form factors at hand: clocks, counts and history
+  /// begin anew.
+  void again();
   /// Estimates what form factors and mesh leave wrong in the present state, from so many more places than
   /// before; the solve's clocks rest, but its cpu_solve counts it.
   const ErrorEstimates& estimate(std::size_t more_places);
   const ErrorEstimates& estimates() const;
   std::size_t places() const;  ///< that estimates() are from
   const ErrorBounds& bounds() const;
+  /// Goes on working out the light by bounces (Snapshot::bounce_light), from form factors at hand and for
+  /// some milliseconds; those that are missing are computed first where `compute` allows it, one a call. The
+  /// clocks rest. Returns whether anything is new.
+  bool workOutBounces(bool compute);
+  bool hasBouncesToWorkOut(bool compute) const;
   double errorSeconds() const;  ///< wall time that bounds and estimates took so far
   /// Stops the clocks of `measures`, as the last step left them, until the next step.
   void rest();
@@ -124,7 +135,7 @@ class Solve {
   std::size_t workingBytes() const;
   std::uint64_t drawn() const;  ///< hemicubes drawn
   /// The bound that reached the error asked for ("solver_upper", "solver_total_upper"), "nothing unshot",
-  /// "max_seconds", "max_shots", "interrupted", "no light", or what failed.
+  /// "max_seconds", "max_shots", "bounces", "interrupted", "no light", or what failed.
   const std::string& stoppedBy() const;
   /// What failed and what to try: kInput where the scene has no finite solution, kInternal for numerical
   /// trouble. Nothing unless state() is kFailed.

@@ -12,7 +12,9 @@ bool FirstPass::step(RadiosityState& state, Transport& transport) {
   const auto toShoot = [&](std::uint32_t q) { return glm::max(state.unshot()[q], state.emissionLeft(q)); };
   const std::uint32_t q = heaviest(state.patchCount(), [&](std::uint32_t p) {
     if (state.emissionLeft(p) != glm::dvec3(0.0)) return powerOf(state.area()[p], toShoot(p));
-    return passed_[p] || transport.isKept(p) ? 0.0 : powerOf(state.area()[p], state.unshot()[p]);
+    // A column at hand that nothing was shot along does not say yet what light reaches.
+    const bool known = transport.isKept(p) && state.shot()[p] != glm::dvec3(0.0);
+    return passed_[p] || known ? 0.0 : powerOf(state.area()[p], state.unshot()[p]);
   });
   if (q == kNone) {
     over_ = true;

@@ -10,7 +10,8 @@ namespace unshot {
 
 class FirstPass {
  public:
-  /// Shoots one patch; false where none is left: each has shot, holds nothing, or has its column at hand.
+  /// Shoots one patch; false where none is left: each has shot, holds nothing, or has shot before
+  /// along a column at hand.
   bool step(RadiosityState& state, Transport& transport);
 
  private:

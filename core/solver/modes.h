@@ -30,6 +30,9 @@ class IterationMode {
   virtual std::optional<std::size_t> step(RadiosityState& state, Transport& transport) = 0;
   /// What it is doing besides shooting, such as "factorising"; empty: it shoots.
   virtual std::string activity() const { return {}; }
+  /// sum A B_k per channel [W] of the bounces that it has begun to shoot, from B_0 = E on; empty where it
+  /// does not go bounce by bounce from the start.
+  virtual std::vector<glm::dvec3> bouncePowers() const { return {}; }
   /// Memory that it holds beside the state, where that is more than some vectors [bytes].
   virtual std::size_t bytes() const { return 0; }
 };
@@ -59,6 +62,9 @@ std::unique_ptr<IterationMode> makeSouthwell();
 std::unique_ptr<IterationMode> makeKeptFirst();
 std::unique_ptr<IterationMode> makeOvershoot();
 std::unique_ptr<IterationMode> makeJacobi();
+/// The same, with nothing left to shoot after `bounces` sweeps: from nothing shot, B is then the light of so
+/// many bounces.
+std::unique_ptr<IterationMode> makeBounces(std::uint64_t bounces);
 std::unique_ptr<IterationMode> makeGaussSeidel();
 std::unique_ptr<IterationMode> makeChebyshev();
 std::unique_ptr<IterationMode> makeConjugateGradient();

@@ -1,5 +1,6 @@
 #include "solver/state.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 
@@ -22,6 +23,14 @@ RadiosityState::RadiosityState(const Transport& transport, std::vector<glm::dvec
       emission_left_(emission_),
       area_(transport.patchArea()) {
   for (std::size_t q = 0; q < emission_.size(); ++q) emitted_power_ += area_[q] * sumOfChannels(emission_[q]);
+}
+
+void RadiosityState::reset() {
+  unshot_ = emission_left_ = emission_;
+  for (std::vector<glm::dvec3>* field : {&shot_, &irradiance_, &direct_})
+    std::fill(field->begin(), field->end(), glm::dvec3(0.0));
+  escaped_power_ = defect_power_ = 0;
+  emission_shots_ = 0;
 }
 
 glm::dvec3 RadiosityState::takeEmission(std::uint32_t q, const glm::dvec3& d) {

@@ -25,6 +25,9 @@ class RadiosityState {
   RadiosityState(const Transport& transport, std::vector<glm::dvec3> emission,
                  std::vector<glm::dvec3> reflectance);
 
+  /// Nothing shot again.
+  void reset();
+
   std::size_t patchCount() const { return shot_.size(); }
 
   /// S_q += d, H += K d; H_d += K of the emission in d: per channel, as much of d as is emission not yet shot

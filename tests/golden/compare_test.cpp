@@ -1,6 +1,8 @@
 // unshot compare: figures, the difference image, and exit code 6.
 #include <gmock/gmock.h>
 
+#include <glm/vec3.hpp>
+
 #include "export/image_files.h"
 #include "support/run_program.h"
 #include "support/scenes.h"
@@ -82,6 +84,52 @@ TEST(Compare, SolutionsOnTheSameMesh) {
   const ProgramResult other = runProgram(folder, {"compare", "a.ply", "c.ply"});
   EXPECT_EQ(other.code, 3);
   EXPECT_THAT(other.err, HasSubstr("vertices"));
+}
+
+TEST(Compare, DrawsTheDifferenceOfSolutions) {
+  const TempFolder folder;
+  testing_support::writeRoom(folder);
+  const auto solve = [&](const char* bounces, const char* ply) {
+    return runProgram(folder, {"solve", "room.obj", "--elements", "300", "--bounces", bounces, "--ply", ply});
+  };
+  ASSERT_EQ(solve("1", "direct.ply").code, 0);
+  const ProgramResult two = solve("2", "two.ply");
+  ASSERT_EQ(two.code, 0) << two.err;
+  EXPECT_THAT(two.out, HasSubstr("bounces"));
+  const auto meanOf = [&](const char* a, const char* b) {
+    const ProgramResult result = runProgram(folder, {"compare", a, b, "--out", "d.png", "--size", "64x48"});
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("orange where A is brighter"));
+    const ImageF image = readImage(folder / "d.png");
+    EXPECT_EQ(image.width, 64);
+    glm::dvec3 mean(0.0);
+    for (std::size_t k = 0; k < image.rgb.size(); ++k) mean[static_cast<int>(k % 3)] += image.rgb[k];
+    return mean / (64.0 * 48);
+  };
+  const glm::dvec3 brighter = meanOf("two.ply", "direct.ply"), darker = meanOf("direct.ply", "two.ply"),
+                   same = meanOf("two.ply", "two.ply");
+  EXPECT_GT(brighter.x, 2 * brighter.z);
+  EXPECT_GT(darker.z, 2 * darker.x);
+  EXPECT_LT(same.x, 0.05);
+  EXPECT_NEAR(same.x, same.z, 0.01);
+}
+
+TEST(Compare, ASolutionAgainstReferenceValuesAtPoints) {
+  const TempFolder folder;
+  const std::string data = std::string(UNSHOT_SOURCE_DIR) + "/tests/data/";
+  ASSERT_EQ(runProgram(folder, {"solve", data + "cornell_published.obj", "--elements", "2000", "--bounces",
+                                "1", "--ply", "direct.ply"})
+                .code,
+            0);
+  const ProgramResult direct = runProgram(
+      folder, {"compare", "direct.ply", data + "cornell_published_direct.csv", "--tolerance", "0.06"});
+  EXPECT_EQ(direct.code, 0) << direct.out;
+  EXPECT_THAT(direct.out, AllOf(HasSubstr("198 probes"), HasSubstr("2 on light sources")));
+  EXPECT_EQ(
+      runProgram(folder, {"compare", "direct.ply", data + "cornell_published.csv", "--tolerance", "0.3"})
+          .code,
+      6);
+  EXPECT_EQ(runProgram(folder, {"compare", data + "cornell_published.csv", "direct.ply"}).code, 0);
 }
 
 TEST(Compare, RefusesWhatCannotBeCompared) {

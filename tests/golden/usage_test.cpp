@@ -35,11 +35,11 @@ TEST(Help, TellsAboutEveryCommand) {
 TEST(Help, NamesEveryOptionOfSolve) {
   const ProgramResult result = runProgram(TempFolder(), {"solve", "--help"});
   for (const char* option :
-       {"--mode",     "--form-factors", "--gl",        "--elements", "--element-size", "--emit",
-        "--error",    "--max-seconds",  "--max-shots", "--seed",     "--png",          "--hdr",
-        "--size",     "--eye",          "--at",        "--up",       "--fov",          "--display",
-        "--exposure", "--ambient",      "--ply",       "--probe",    "--probe-out",    "--report",
-        "--hemicube", "--keep",         "--shader-dir"}) {
+       {"--mode",     "--form-factors", "--gl",         "--elements", "--element-size", "--emit",
+        "--error",    "--max-seconds",  "--max-shots",  "--seed",     "--png",          "--hdr",
+        "--size",     "--eye",          "--at",         "--up",       "--fov",          "--display",
+        "--exposure", "--ambient",      "--ply",        "--probe",    "--probe-out",    "--report",
+        "--hemicube", "--keep",         "--shader-dir", "--bounces"}) {
     EXPECT_THAT(result.out, HasSubstr(std::string("  ") + option + " "));
   }
 }
@@ -136,6 +136,7 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"solve", "room.obj", "--error", "nan"}, "--error: nan is not above 0 and below 1"},
         UsageCase{{"solve", "room.obj", "--max-seconds", "0"}, "--max-seconds: 0 is not above 0"},
         UsageCase{{"solve", "room.obj", "--max-shots", "0"}, "--max-shots: 0 is not at least 1"},
+        UsageCase{{"solve", "room.obj", "--bounces", "0"}, "--bounces: 0 is not at least 1"},
         UsageCase{{"solve", "room.obj", "--seed", "1.5"}, "--seed: '1.5' is not a whole number"},
         UsageCase{{"solve", "room.obj", "--hemicube", "33"}, "--hemicube: 33 is not even"},
         UsageCase{{"solve", "room.obj", "--hemicube", "8"}, "--hemicube: 8 is not from 16 to 4,096"},

@@ -5,7 +5,9 @@
 #include <map>
 #include <set>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
+#include "export/ply.h"
 #include "formfactor/methods.h"
 #include "render/display_modes.h"
 #include "solver/modes.h"
@@ -75,7 +77,9 @@ const std::map<std::string_view, std::string>& validArguments() {
       {"camera", "278,273,-800,278,273,0,39"},
       {"panel", "off"},
       {"help", "on"},
-      {"plot", "shots"},
+      {"plot", "rows"},
+      {"bounces", "2"},
+      {"reference", "solution.ply"},
       {"size", "400x300"},
       {"scale", "1.5"},
       {"screenshot", "with.png"},
@@ -139,8 +143,8 @@ LiveViewer::Options cornellBox() {
 
 /// Performs it and runs until it is carried out and shown.
 void performAndSettle(LiveViewer& live, const Action& action, const std::string& argument) {
-  static const std::set<std::string_view> kSolveAnew{"open", "restart", "form-factors", "elements",
-                                                     "hemicube"};
+  static const std::set<std::string_view> kSolveAnew{"open",     "restart",  "form-factors",
+                                                     "elements", "hemicube", "again"};
   const std::uint64_t epoch = live->state().epoch;
   live->perform(action.key, argument);
   for (int frame = 0; frame < 5; ++frame) live.draw();
@@ -171,6 +175,8 @@ TEST_F(EveryAction, PerformsOnALiveViewer) {
     for (const bool with : {true, false}) {
       if (with ? valid == validArguments().end() : action.needsArgument()) continue;
       SCOPED_TRACE(std::string(action.key) + (with ? " " + valid->second : ""));
+      if (action.key == "reference")
+        writeWholeFile("solution.ply", plyBytes(*live->state().snapshot, false, 1));
       performAndSettle(live, action, with ? valid->second : "");
       ASSERT_FALSE(live->error()) << live->error()->fullText();
     }
@@ -180,8 +186,9 @@ TEST_F(EveryAction, PerformsOnALiveViewer) {
   EXPECT_FALSE(live->closing());
   live->perform("quit");
   EXPECT_TRUE(live->closing());
-  EXPECT_EQ(folder_.names(), (std::set<std::string>{"with.png", "without.png", "unshot-two_patches-001.png",
-                                                    "unshot-two_patches-002.png"}));
+  EXPECT_EQ(folder_.names(),
+            (std::set<std::string>{"with.png", "without.png", "solution.ply", "unshot-two_patches-001.png",
+                                   "unshot-two_patches-002.png"}));
 }
 
 TEST_F(EveryAction, WithoutASceneNoneCrashes) {

@@ -17,7 +17,7 @@ using namespace testing_support;
 const char* const kScenes[] = {"furnace.obj", "two_patches.obj", "cornell_box.obj", "missing.obj"};
 
 void sendSomething(Session& session, Dice& dice) {
-  const std::uint32_t kind = dice.below(20);
+  const std::uint32_t kind = dice.below(24);
   if (kind < 2) {
     session.open(asset(kScenes[dice.below(4)]), closedForm(20 + dice.below(60), dice.between(0, 0.1)));
   } else if (kind < 3) {
@@ -33,6 +33,10 @@ void sendSomething(Session& session, Dice& dice) {
     session.setMode(mode < iterationModes().size() ? std::string(iterationModes()[mode].info.key) : "none");
   } else if (kind < 19) {
     session.setError(dice.between(-0.01, 0.1));
+  } else if (kind < 21) {
+    session.completeBounces();
+  } else if (kind < 23) {
+    session.shootAgain();
   } else {
     session.setPublishInterval(dice.between(0, 0.1));
   }

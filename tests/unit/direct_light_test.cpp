@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "base/colour.h"
 #include "gl/context.h"
 #include "render/scene_view.h"
 #include "support/synthetic_room.h"
@@ -28,12 +29,15 @@ class DirectLight : public testing::TestWithParam<gl::Provider> {
   }
   // The value in the middle of a picture of the back wall, whose reflectance is 0.75.
   glm::dvec3 shown(SceneView& view, const std::string& display, bool indirect, bool ambient) {
-    const LinearTarget target(*context_, 32, 24);
-    target.bind();
     ViewOptions options;
     options.display = display;
-    options.indirect = indirect;
+    options.light.indirect = indirect;
     options.ambient = ambient;
+    return shown(view, options);
+  }
+  glm::dvec3 shown(SceneView& view, const ViewOptions& options) {
+    const LinearTarget target(*context_, 32, 24);
+    target.bind();
     view.drawLinear({{-0.5, 1, 3}, {-0.5, 1, 0}, {0, 1, 0}, 40}, 4.0 / 3, {}, options, false);
     EXPECT_EQ(context_->functions().GetError(), GLenum{GL_NO_ERROR});
     return glm::dvec3(glm::vec3(target.read()[12 * 32 + 16]));
@@ -81,6 +85,51 @@ TEST_P(DirectLight, FollowsTheSnapshotAndIsDarkWhereThereIsNone) {
   room_.element_direct = nullptr;
   view.setSnapshot(room_);
   expectNear(shown(view, "irradiance", false, true), glm::dvec3(0.0), "gone");
+}
+
+TEST_P(DirectLight, BouncesAreShownAsFarAsTheyAreKnown) {
+  const auto field = [&](float light) {
+    return std::make_shared<const MeshField>(
+        MeshField{std::vector<glm::vec3>(room_.irradiance.size(), glm::vec3(light)),
+                  std::vector<glm::vec3>(room_.element_irradiance.size(), glm::vec3(light / 2))});
+  };
+  SceneView view(*context_);
+  ViewOptions options;
+  options.light.bounces = 2;
+  view.setSnapshot(room_);
+  options.ambient = false;
+  expectNear(shown(view, options), 0.75 * glm::dvec3(2, 3, 4), "none known: all light");
+  options.ambient = true;
+  room_.bounce_light = std::make_shared<const BounceLight>(BounceLight{{}, {field(4), field(6), field(7)}});
+  view.setSnapshot(room_);
+  for (int round = 0; round < 2; ++round) {
+    options.display = "radiosity";
+    options.light.bounces = 1;
+    expectNear(shown(view, options), glm::dvec3(0.75 * 4), "one");
+    options.light.bounces = 2;
+    expectNear(shown(view, options), glm::dvec3(0.75 * 6), "two");
+    options.display = "flat";
+    expectNear(shown(view, options), glm::dvec3(0.75 * 3), "two, flat");
+    options.light.bounces = 9;
+    expectNear(shown(view, options), glm::dvec3(0.75 * 3.5), "more than are known");
+  }
+}
+
+TEST_P(DirectLight, DifferencesHaveTheSignAndSizeOfTheirColour) {
+  room_.direct = constant(room_.irradiance.size(), {2, 3, 4});
+  SceneView view(*context_);
+  view.setSnapshot(room_);
+  ViewOptions options;
+  options.display = "difference";
+  expectNear(shown(view, options), differenceColour(0), "as direct light, whatever the ambient term");
+  for (const double factor : {0.5, 0.98, 1.0, 1.004, 1.3, 3.0}) {
+    // The reference reflects as much everywhere as is reflected now, over `factor`.
+    const std::vector<glm::dvec3> radiosity(room_.irradiance.size(), 0.75 * glm::dvec3(2, 3, 4) / factor);
+    auto reference = std::make_shared<ReferenceLight>(referenceLight(room_.mesh, radiosity, "test"));
+    EXPECT_NEAR(reference->mean, luminance(radiosity[0]), 1e-5);
+    options.reference = reference;
+    EXPECT_LT(glm::length(shown(view, options) - differenceColour(factor - 1)), 2e-3) << factor;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Providers, DirectLight,

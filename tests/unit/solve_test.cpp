@@ -32,6 +32,37 @@ void finish(Solve& solve) {
   while (solve.state() == SolveState::kRunning) solve.step();
 }
 
+TEST(Solve, ShootsAgainInEveryModeAndKnowsItsErrorAfterDirect) {
+  const auto solve = begin(asset("two_patches.obj"), 1e-6, "direct");
+  EXPECT_FALSE(solve->measures().true_error);
+  finish(*solve);
+  ASSERT_TRUE(solve->measures().true_error);
+  EXPECT_LT(*solve->measures().true_error, 1e-12);
+  for (const IterationModeRow& mode : iterationModes()) {
+    SCOPED_TRACE(mode.info.key);
+    solve->setMode(std::string(mode.info.key));
+    solve->again();
+    EXPECT_EQ(solve->measures().shots, 0u);
+    EXPECT_EQ(solve->measures().unshot_fraction, 1);
+    EXPECT_EQ(solve->history().size(), 1u);
+    EXPECT_EQ(solve->snapshot().direct->front(), glm::vec3(0.0f));
+    double most = 0;
+    while (solve->state() == SolveState::kRunning) {
+      solve->step();
+      const Measures& m = solve->measures();
+      ASSERT_TRUE(m.true_error);
+      EXPECT_LE(*m.true_error, m.bounds.upper * (1 + 1e-6) + 1e-12);
+      EXPECT_GE(*m.true_error * (1 + 1e-6) + 1e-12, m.bounds.lower);
+      most = std::max(most, *m.true_error);
+    }
+    EXPECT_EQ(solve->state(), SolveState::kConverged);
+    EXPECT_EQ(solve->measures().rows, 0u) << "form factors were at hand";
+    EXPECT_LE(*solve->measures().true_error, 1e-6);
+    EXPECT_GT(most, 1e-3) << "it began with nothing";
+    EXPECT_LT(std::abs(solve->energy().residual()), 1e-9 * solve->energy().emitted);
+  }
+}
+
 TEST(Solve, ValidatesModeAndErrorAndKeepsThemWhereTheyAreBad) {
   const auto solve = begin(asset("two_patches.obj"), 0.25, "jacobi");
   EXPECT_THROW(solve->setMode("none"), Error);

@@ -1,0 +1,145 @@
+#include "viewer/bounce_panel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "viewer/comparison.h"
+#include "viewer/widgets.h"
+
+namespace unshot {
+namespace {
+
+// Bars are logarithmic, from this part of the light emitted (no bar) to all of it.
+constexpr double kLeastShown = 1e-4;
+constexpr int kDecades = 4;
+constexpr float kHeight = 6;  // of the bars, in font sizes
+
+const ImVec4 kChannels[3] = {{0.86f, 0.36f, 0.3f, 1}, {0.45f, 0.72f, 0.33f, 1}, {0.36f, 0.55f, 0.9f, 1}};
+
+double sum(const glm::dvec3& x) { return x.x + x.y + x.z; }
+
+/// Bars of the three channels side by side, each of its own emission; dim beyond the bounces shown.
+void bounceBars(const std::vector<glm::dvec3>& power, ImVec2 at, float slot, float height,
+                std::uint32_t shown) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  for (std::size_t k = 0; k < power.size(); ++k) {
+    const float alpha = shown == 0 || k <= shown ? 1.0f : 0.3f;
+    const float left = at.x + static_cast<float>(k) * slot, bar = std::floor((slot - 2) / 3);
+    for (int c = 0; c < 3; ++c) {
+      if (power[0][c] <= 0 || power[k][c] <= 0) continue;
+      const double share = 1 + std::log10(power[k][c] / power[0][c]) / kDecades;
+      if (share <= 0) continue;
+      const float x = std::round(left) + static_cast<float>(c) * bar;
+      const auto top = static_cast<float>(height * (1 - std::min(share, 1.0)));
+      list.AddRectFilled({x, at.y + std::min(top, height - 1)}, {x + bar, at.y + height},
+                         ImGui::GetColorU32({kChannels[c].x, kChannels[c].y, kChannels[c].z, alpha}));
+    }
+    if (k % 2 != 0 && power.size() > 9) continue;
+    const std::string number = std::to_string(k);
+    const float half = ImGui::CalcTextSize(number.c_str()).x / 2;
+    list.AddText({std::round(left + slot / 2 - half - 1), at.y + height + 1},
+                 ImGui::GetColorU32(ImGuiCol_TextDisabled), number.c_str());
+  }
+}
+
+void bounceGrid(ImVec2 at, float left, float width, float height) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  for (int decade = 0; decade <= kDecades; ++decade) {
+    const float y = std::round(at.y + height * static_cast<float>(decade) / kDecades);
+    list.AddRectFilled({at.x + left, y}, {at.x + width, y + 1},
+                       ImGui::GetColorU32(ImGuiCol_Text, decade == kDecades ? 0.35f : 0.12f));
+    if (decade % 2 != 0) continue;
+    const std::string text = percentText(std::pow(10.0, -decade));
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    list.AddText({at.x + left - size.x - 5, y - (decade == 0 ? 0.25f : 0.5f) * size.y},
+                 ImGui::GetColorU32(ImGuiCol_TextDisabled), text.c_str());
+  }
+}
+
+void bounceChart(Viewer& viewer, const BounceLight& light, std::uint32_t shown) {
+  const float em = ImGui::GetFontSize(), height = kHeight * em;
+  const float width = std::floor(ImGui::GetContentRegionAvail().x), left = 3.4f * em;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float slot = std::min((width - left) / static_cast<float>(light.power.size()), 2.4f * em);
+  ImGui::InvisibleButton("##bounces", {width, height + 1.1f * em});
+  const bool hovered = ImGui::IsItemHovered(), clicked = ImGui::IsItemClicked();
+  bounceGrid(at, left, width, height);
+  bounceBars(light.power, {at.x + left + 1, at.y}, slot, height, shown);
+  if (!hovered) return;
+  const float place = (ImGui::GetMousePos().x - at.x - left) / slot;
+  if (place < 0 || place >= static_cast<float>(light.power.size())) return;
+  const auto k = static_cast<std::size_t>(place);
+  const bool known = k >= 1 && k <= light.received.size();
+  tooltip(bounceText(light.power, k) + (known ? "\nClick: only the light up to this bounce" : ""));
+  if (clicked && known) viewer.perform("bounces", shown == k ? "all" : std::to_string(k));
+}
+
+void ratioLine(const SessionState& state, const std::vector<glm::dvec3>& power) {
+  const glm::dvec3 now = power.back(), before = power[power.size() - 2];
+  double ratio = 0;
+  for (int c = 0; c < 3; ++c) ratio = std::max(ratio, before[c] > 0 ? now[c] / before[c] : 0);
+  const auto largest = [](const glm::dvec3& x) { return std::max({x.x, x.y, x.z}); };
+  std::string text = figureText(ratio);
+  if (state.radius_upper.x < kNoBound) {
+    text += " (radius " + figureText(largest(state.radius_lower)) + " to " +
+            figureText(largest(state.radius_upper)) + ")";
+  }
+  line("Last ratio", text,
+       "The power of the last bounce over that of the one before, in the channel where it falls least. It "
+       "tends to "
+       "the spectral radius of M, which bounds bracket: what each further bounce leaves of the light");
+}
+
+void chooseBounces(Viewer& viewer, std::size_t known, std::uint32_t shown) {
+  label("Light", "Only the light of so many bounces: E + M E + ... + M^n E; one is direct light");
+  const int all = static_cast<int>(known) + 1;
+  int n = shown == 0 ? all : static_cast<int>(shown);
+  const std::string text = n == all ? "all light" : countedText(shown, "bounce");
+  if (ImGui::SliderInt("##bounces-shown", &n, 1, all, text.c_str(), ImGuiSliderFlags_NoInput))
+    viewer.perform("bounces", n == all ? "all" : std::to_string(n));
+}
+
+}  // namespace
+
+double bounceRatio(const std::vector<glm::dvec3>& power, std::size_t k) {
+  const double before = sum(power[k - 1]);
+  return before > 0 ? sum(power[k]) / before : 0;
+}
+
+std::string bounceText(const std::vector<glm::dvec3>& power, std::size_t k) {
+  if (k == 0) return "E, the light emitted: " + figureText(sum(power[0])) + " W over the three channels";
+  const double emitted = sum(power[0]);
+  return "Bounce " + std::to_string(k) + ": " + percentText(emitted > 0 ? sum(power[k]) / emitted : 0) +
+         " of the light emitted, " + figureText(bounceRatio(power, k)) + " times " +
+         (k == 1 ? "E" : "bounce " + std::to_string(k - 1));
+}
+
+void bouncesSection(Viewer& viewer) {
+  if (!section("Bounces")) return;
+  const SessionState& state = viewer.state();
+  if (!state.snapshot) {
+    ImGui::TextDisabled("nothing yet");
+    return;
+  }
+  const Snapshot& snapshot = *state.snapshot;
+  const std::uint32_t shown = shownBounces(snapshot, viewer.ui().settings.view.light);
+  const bool known = snapshot.bounce_light && snapshot.bounce_light->power.size() > 1;
+  if (known) {
+    bounceChart(viewer, *snapshot.bounce_light, shown);
+    ratioLine(state, snapshot.bounce_light->power);
+  }
+  if (known && !snapshot.bounce_light->received.empty()) {
+    chooseBounces(viewer, snapshot.bounce_light->received.size(), shown);
+    return;
+  }
+  const std::string wait = bounceWaitText(state);
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextDisabled("%s", wait.empty() ? "Worked out when the solve rests" : (wait + ".").c_str());
+  ImGui::PopTextWrapPos();
+  if (wait.empty() || snapshot.bounce_wait.no_room) return;
+  if (ImGui::Button("Compute them at rest")) viewer.perform("complete-bounces");
+  tooltip("Computes what is missing once the solve rests, then the light of each bounce");
+}
+
+}  // namespace unshot

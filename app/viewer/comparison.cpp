@@ -1,0 +1,201 @@
+#include "viewer/comparison.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "base/srgb.h"
+#include "base/text.h"
+#include "export/probes.h"
+
+namespace unshot {
+namespace {
+
+// Vertices that lie on no surface of a solution that was loaded: more than this share of them, and it is of
+// another scene.
+constexpr double kMostOutside = 0.02;
+// How far from a vertex towards its triangles' middles a solution on another mesh is asked.
+constexpr double kBeside = 0.02;
+
+const Snapshot& snapshotOf(const SessionState& state) {
+  if (!state.snapshot) throw Error(ErrorKind::kUsage, "there is no light yet", {}, "open a scene first");
+  return *state.snapshot;
+}
+
+std::string nameOf(const Snapshot& snapshot, const LightChoice& choice) {
+  if (!choice.indirect) return "direct light alone";
+  const std::string at = countedText(snapshot.measures.shots, "shot");
+  const std::uint32_t bounces = shownBounces(snapshot, choice);
+  return bounces > 0 ? countedText(bounces, "bounce") : "the state at " + at;
+}
+
+ImU32 colourOf(double relative) {
+  const glm::dvec3 linear = differenceColour(relative);
+  return IM_COL32(srgb8FromLinear(static_cast<float>(linear.x)),
+                  srgb8FromLinear(static_cast<float>(linear.y)),
+                  srgb8FromLinear(static_cast<float>(linear.z)), 255);
+}
+
+/// The difference at a place of the scale, from -1 to 1.
+double differenceAt(double place) {
+  const double size = std::pow(kLeastDifference, 1 - std::abs(place));
+  return place < 0 ? -size : size;
+}
+
+void drawScale(ImVec2 at, float width, float em) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const auto steps = static_cast<int>(width);
+  for (int k = 0; k < steps; ++k) {
+    const double place = 2 * (k + 0.5) / steps - 1;
+    const float x = at.x + static_cast<float>(k);
+    list.AddRectFilled({x, at.y}, {x + 1, at.y + em}, colourOf(differenceAt(place)));
+  }
+  const std::array<double, 7> ticks = {-1, -2.0 / 3, -1.0 / 3, 0, 1.0 / 3, 2.0 / 3, 1};
+  for (const double place : ticks) {
+    const float x = std::round(at.x + static_cast<float>((place + 1) / 2) * (width - 1));
+    list.AddRectFilled({x, at.y + em}, {x + 1, at.y + 1.3f * em}, ImGui::GetColorU32(ImGuiCol_Text, 0.6f));
+    const std::string text =
+        place == 0 ? "0" : (place < 0 ? "\u2212" : "+") + percentText(std::abs(differenceAt(place)));
+    const float half = ImGui::CalcTextSize(text.c_str()).x / 2;
+    const float left = std::clamp(x - half, at.x - em, at.x + width + em - 2 * half);
+    list.AddText({left, at.y + 1.35f * em}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+  }
+}
+
+void differenceLegend(const std::string& shown, const std::string& reference) {
+  const float em = ImGui::GetFontSize(), width = 26 * em;
+  ImGui::TextUnformatted((shown + " \u2212 " + reference).c_str());
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  drawScale({at.x + em, at.y}, width, em);
+  ImGui::Dummy({width + 2 * em, 2.5f * em});
+  ImGui::TextDisabled("darker");
+  ImGui::SameLine();
+  const char* unit = "of its mean reflected light";
+  ImGui::SetCursorPosX((width + 2 * em - ImGui::CalcTextSize(unit).x) / 2 +
+                       ImGui::GetStyle().WindowPadding.x);
+  ImGui::TextDisabled("%s", unit);
+  ImGui::SameLine(width + 2 * em - ImGui::CalcTextSize("brighter").x + ImGui::GetStyle().WindowPadding.x);
+  ImGui::TextDisabled("brighter");
+}
+
+/// The part of the light that is shown, in words; empty for all of it.
+std::string lightText(const SessionState& state, const LightChoice& choice) {
+  if (choice.all()) return {};
+  if (!choice.indirect) return "direct light only";
+  const std::uint32_t bounces = shownBounces(*state.snapshot, choice);
+  if (bounces > 0) return countedText(bounces, "bounce") + " only";
+  const std::string wait = bounceWaitText(state);
+  return countedText(*choice.bounces, "bounce") +
+         " not known yet, all light is shown: " + (wait.empty() ? "worked out while the solve rests" : wait);
+}
+
+/// Whether the solution's vertices are those of the mesh.
+bool isOn(const Mesh& mesh, const PlySolution& solution) {
+  if (solution.positions.size() != mesh.vertices.size()) return false;
+  const double close = 1e-5 * glm::length(mesh.bounds_max - mesh.bounds_min);
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const glm::dvec3 p = glm::dvec3(mesh.vertices[v].position) + mesh.frame_origin;
+    if (glm::distance(p, solution.positions[v]) > close) return false;
+  }
+  return true;
+}
+
+/// A point beside each vertex, on its surface: at the vertex itself a neighbour may lie in the same plane.
+std::vector<Probe> besideVertices(const Mesh& mesh) {
+  std::vector<glm::dvec3> sum(mesh.vertices.size(), glm::dvec3(0.0));
+  std::vector<double> count(mesh.vertices.size(), 0.0);
+  for (std::size_t k = 0; k < mesh.triangle_vertices.size(); ++k) {
+    const std::uint32_t* corner = &mesh.triangle_vertices[k - k % 3];
+    for (int c = 0; c < 3; ++c)
+      sum[mesh.triangle_vertices[k]] += glm::dvec3(mesh.vertices[corner[c]].position) / 3.0;
+    count[mesh.triangle_vertices[k]] += 1;
+  }
+  std::vector<Probe> probes;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const glm::dvec3 at(mesh.vertices[v].position);
+    const glm::dvec3 beside = count[v] > 0 ? glm::mix(at, sum[v] / count[v], kBeside) : at;
+    probes.push_back({beside + mesh.frame_origin, glm::dvec3(mesh.vertices[v].normal)});
+  }
+  return probes;
+}
+
+/// The solution's radiosity at the vertices of another mesh of its scene.
+std::vector<glm::dvec3> broughtTo(const Snapshot& snapshot, const PlySolution& solution,
+                                  const std::string& file) {
+  const auto answers = answerProbes(solution, besideVertices(*snapshot.mesh));
+  std::vector<glm::dvec3> out;
+  std::size_t outside = 0;
+  for (std::size_t v = 0; v < answers.size(); ++v) {
+    outside += !answers[v];
+    // Where it says nothing there is no difference.
+    out.push_back(answers[v].value_or(radiosity(snapshot, v, false)));
+  }
+  if (static_cast<double>(outside) <= kMostOutside * static_cast<double>(answers.size())) return out;
+  throw Error(ErrorKind::kInput,
+              "the solution is of another scene: it has nothing at " + countText(outside) + " of " +
+                  countText(answers.size()) + " vertices",
+              file, "a file that unshot solve --ply wrote of this scene");
+}
+
+}  // namespace
+
+std::uint32_t shownBounces(const Snapshot& snapshot, const LightChoice& choice) {
+  if (!choice.indirect || !choice.bounces || !snapshot.bounce_light) return 0;
+  return std::min(*choice.bounces, static_cast<std::uint32_t>(snapshot.bounce_light->received.size()));
+}
+
+std::string bounceWaitText(const SessionState& state) {
+  if (!state.snapshot || !state.facts) return {};
+  const BounceWait& wait = state.snapshot->bounce_wait;
+  if (wait.columns == 0) return {};
+  if (wait.no_room) return "form factors do not fit into their memory (--keep)";
+  return countText(wait.columns) + " of " + countText(state.facts->patches) +
+         " columns of form factors are missing";
+}
+
+bool bouncesComing(const SessionState& state) {
+  const bool rests = state.phase == SessionPhase::kPaused || state.phase == SessionPhase::kConverged ||
+                     state.phase == SessionPhase::kStopped;
+  return rests && state.bounces_under_way;
+}
+
+std::shared_ptr<const ReferenceLight> rememberedLight(const SessionState& state, const LightChoice& choice) {
+  const Snapshot& snapshot = snapshotOf(state);
+  return std::make_shared<const ReferenceLight>(referenceLight(snapshot, choice, nameOf(snapshot, choice)));
+}
+
+std::shared_ptr<const ReferenceLight> loadedLight(const SessionState& state,
+                                                  const std::filesystem::path& ply) {
+  const Snapshot& snapshot = snapshotOf(state);
+  PlySolution solution = readPly(ply);
+  if (!isOn(*snapshot.mesh, solution)) solution.radiosity = broughtTo(snapshot, solution, ply.string());
+  return std::make_shared<const ReferenceLight>(
+      referenceLight(snapshot.mesh, solution.radiosity, ply.filename().string()));
+}
+
+void buildLegend(const SessionState& state, const ViewOptions& view) {
+  if (!state.snapshot) return;
+  const std::string light = lightText(state, view.light);
+  const bool difference = displayMode(view.display).quantity == Quantity::kDifference;
+  if (light.empty() && !difference) return;
+  const float em = ImGui::GetFontSize();
+  ImGui::SetNextWindowPos({0.7f * em, ImGui::GetIO().DisplaySize.y - 0.7f * em}, ImGuiCond_Always, {0, 1});
+  ImGui::SetNextWindowBgAlpha(0.85f);
+  ImGui::Begin("legend", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing |
+                   ImGuiWindowFlags_NoInputs);
+  if (difference) {
+    const bool fits = view.reference && view.reference->mesh == state.snapshot->mesh;
+    differenceLegend(light.empty() ? "all light" : light, fits ? view.reference->name : "direct light alone");
+  } else {
+    ImGui::TextUnformatted(light.c_str());
+  }
+  ImGui::End();
+}
+
+}  // namespace unshot

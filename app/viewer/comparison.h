@@ -1,0 +1,34 @@
+// What the picture is compared with, and what part of the light it shows: chosen, loaded, and said over the
+// scene.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "render/scene_view.h"
+#include "session/session.h"
+
+namespace unshot {
+
+/// What is shown of the snapshot, to be compared with later. Throws a usage Error where there is nothing.
+std::shared_ptr<const ReferenceLight> rememberedLight(const SessionState& state, const LightChoice& choice);
+
+/// A solution that `unshot solve --ply` wrote, of the same scene on any mesh, brought to the vertices of the
+/// present one. Throws Error: kInput where it is another scene's or no PLY file, kUsage where there is no
+/// scene.
+std::shared_ptr<const ReferenceLight> loadedLight(const SessionState& state,
+                                                  const std::filesystem::path& ply);
+
+/// How many bounces are shown, where that is a number and known; else 0.
+std::uint32_t shownBounces(const Snapshot& snapshot, const LightChoice& choice);
+/// Whether the solve rests and works out light by bounces: a picture of it would be one of many.
+bool bouncesComing(const SessionState& state);
+/// What light by bounces waits for, as a sentence; empty where for nothing.
+std::string bounceWaitText(const SessionState& state);
+
+/// The legend of the display mode `difference`, and a line on the part of the light that is shown; nothing
+/// for a picture of all light.
+void buildLegend(const SessionState& state, const ViewOptions& view);
+
+}  // namespace unshot

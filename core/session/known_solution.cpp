@@ -1,0 +1,31 @@
+#include "session/known_solution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace unshot {
+
+void KnownSolution::learn(const RadiosityState& state, const Transport& transport) {
+  radiosity_ = state.shot();
+  for (std::size_t q = 0; q < radiosity_.size(); ++q) radiosity_[q] += state.unshot()[q];
+  refined_ = transport.refined();
+}
+
+std::optional<double> KnownSolution::errorOf(const RadiosityState& state, const Transport& transport) const {
+  if (!known(transport)) return std::nullopt;
+  const std::vector<glm::dvec3>& e = state.emission();
+  const bool all_emit =
+      std::none_of(e.begin(), e.end(), [](const glm::dvec3& x) { return x == glm::dvec3(0.0); });
+  double error = 0, truth = 0;
+  for (std::size_t q = 0; q < radiosity_.size(); ++q) {
+    if (!all_emit && e[q] != glm::dvec3(0.0)) continue;
+    const glm::dvec3 wrong = state.shot()[q] + state.unshot()[q] - radiosity_[q];
+    const glm::dvec3 reflected = radiosity_[q] - e[q];
+    error += state.area()[q] * glm::dot(wrong, wrong);
+    truth += state.area()[q] * glm::dot(reflected, reflected);
+  }
+  return truth > 0 ? std::sqrt(error / truth) : 0;
+}
+
+}  // namespace unshot
