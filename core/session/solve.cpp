@@ -341,7 +341,8 @@ void Solve::again() {
   s.mode.reset();
   s.direct = s.element_direct = nullptr;
   s.failure.reset();
-  s.mode_failed = s.refining = s.resting = false;
+  s.mode_failed = s.resting = false;
+  s.refining.reset();
   s.rows_before = s.transport->computed();
   s.measures.shots = 0;
   s.solve_start = wallSeconds();

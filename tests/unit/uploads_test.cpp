@@ -45,7 +45,7 @@ TEST(Uploads, ASnapshotInPartsAfterOneThatWasGivenUpIsDrawnWhole) {
       for (const bool indirect : {true, false}) {
         ViewOptions options;
         options.display = mode.info.key;
-        options.indirect = indirect;
+        options.light.indirect = indirect;
         const auto pixels = [&](SceneView& view) {
           const LinearTarget target(*context, 32, 24);
           target.bind();
