@@ -119,7 +119,7 @@ void renew() {
     mask(reference, others, each.scale);
     std::size_t count = 0, all = reference.rgb.size() / 3;
     for (std::size_t k = 0; k < all; ++k) count += masked(reference, k);
-    EXPECT_LT(static_cast<double>(count), 0.02 * static_cast<double>(all))
+    EXPECT_LT(static_cast<double>(count), 0.025 * static_cast<double>(all))
         << each.name << ": too much varies";
     writePng(kReferences / file, toEightBits(reference));
     std::printf("%s: %zu of %zu pixels masked\n", each.name, count, all);
