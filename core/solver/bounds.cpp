@@ -191,7 +191,7 @@ bool ErrorBounds::refresh() {
   if (!complete_) v_.clear();
   if (complete_ && compared_version_ != matrix_.version()) startComparison();
   if (compared_version_ != matrix_.version()) {
-    adapted_v_.clear();
+    adapted_ = {};
     nearby_.clear();
   }
   bool gains = false;
@@ -209,6 +209,7 @@ bool ErrorBounds::refresh() {
     low = std::min(low, least(w_[q]));
   }
   if (low <= 0) v_.clear();
+  if (low > 0) compared_.set(v_, w_, *this);
   ++revision_;
   compared_version_ = matrix_.version();
   bracketRadius();
@@ -216,79 +217,83 @@ bool ErrorBounds::refresh() {
   return gains;
 }
 
-ErrorBounds::Field ErrorBounds::reflectedNow() const {
-  Field out(state_.patchCount());
-  for (std::size_t q = 0; q < out.size(); ++q)
-    out[q] = state_.shot()[q] + state_.unshot()[q] - state_.emission()[q];
-  return out;
-}
-
 double ErrorBounds::rmsCounted(const Field& x) const {
   double squares = 0;
   for (std::size_t q = 0; q < x.size(); ++q) {
     if (counted_[q]) squares += state_.area()[q] * sum(x[q] * x[q]);
   }
+  return rmsOf(squares);
+}
+
+double ErrorBounds::rmsOf(double squares) const {
   return counted_area_ > 0 ? std::sqrt(squares / (3 * counted_area_)) : 0;
 }
 
-double ErrorBounds::totalUpper() const {
-  if (z_.empty()) return kNoBound;
-  double bound = 0, reflected_now = 0, negative = 0;
-  for (std::size_t q = 0; q < z_.size(); ++q) {
-    const glm::dvec3& u = state_.unshot()[q];
-    bound += state_.area()[q] * sum(glm::abs(u) * z_[q]);
-    negative += state_.area()[q] * sum(glm::max(-u, glm::dvec3(0.0)) * z_[q]);
-    if (counted_[q]) reflected_now += state_.area()[q] * sum(state_.shot()[q] + u - state_.emission()[q]);
+// Each step of a solve comes here, so that all sums are taken in one pass.
+ErrorBounds::Sums ErrorBounds::sumsNow() const {
+  Sums out;
+  const std::vector<glm::dvec3>&u = state_.unshot(), &shot = state_.shot(), &emission = state_.emission();
+  const std::vector<glm::dvec3>& weights = norm_.weights();
+  const bool total = !z_.empty(), compare = comparable(), adapted = !adapted_.empty(),
+             near = !nearby_.empty();
+  for (std::size_t q = 0; q < u.size(); ++q) {
+    const double area = state_.area()[q];
+    const glm::dvec3 size = glm::abs(u[q]);
+    if (total) {
+      out.weighted += area * sum(size * z_[q]);
+      out.negative += area * sum(glm::max(-u[q], glm::dvec3(0.0)) * z_[q]);
+    }
+    if (compare) {
+      out.norm += weights[q] * size * size;
+      out.factor = glm::max(out.factor, size * compared_.inverse_w[q]);
+    }
+    if (adapted) out.adapted_factor = glm::max(out.adapted_factor, size * adapted_.inverse_w[q]);
+    if (!counted_[q]) continue;
+    const glm::dvec3 reflected = shot[q] + u[q] - emission[q];
+    out.reflected += area * sum(reflected);
+    out.reflected_squares += area * sum(reflected * reflected);
+    if (!near) continue;
+    const glm::dvec3 off = nearby_[q] - shot[q] - u[q];
+    out.nearby_squares += area * sum(off * off);
   }
+  return out;
+}
+
+double ErrorBounds::totalUpper(const Sums& sums) const {
+  if (z_.empty()) return kNoBound;
   // What is still to come is at least 0 where U is, so the truth reflects at least this much.
-  const double truth = reflected_now - negative;
-  return truth > 0 ? bound / truth : kNoBound;
+  const double truth = sums.reflected - sums.negative;
+  return truth > 0 ? sums.weighted / truth : kNoBound;
+}
+
+// The bound for an RMS error of at most `rms`.
+double ErrorBounds::upperOf(double rms, const Sums& sums) const {
+  const double now = rmsOf(sums.reflected_squares);
+  return now > rms ? rms / (now - rms) : kNoBound;
 }
 
 SolverBounds ErrorBounds::at() const {
   SolverBounds out;
-  out.total_upper = totalUpper();
+  const Sums sums = sumsNow();
+  out.total_upper = totalUpper(sums);
   if (!comparable()) return out;
-  out.upper = std::min({upperOf(comparison(v_, w_, adapted_v_, adapted_w_)),
-                        upperOf(rmsAfter(state_.unshot())), upperOf(rmsFromNearby())});
+  double rms = std::min(rmsOf(sum(sums.factor * sums.factor * compared_.squares)),
+                        rmsOf(norm_.squaresAfter(sums.norm)));
+  if (!adapted_.empty())
+    rms = std::min(rms, rmsOf(sum(sums.adapted_factor * sums.adapted_factor * adapted_.squares)));
+  if (!nearby_.empty()) rms = std::min(rms, rmsOf(sums.nearby_squares) + nearby_error_);
+  out.upper = upperOf(rms, sums);
   return out;
 }
 
-// By both pairs the smaller of the two, patch by patch; the second may be empty.
-ErrorBounds::Field ErrorBounds::comparison(const Field& v, const Field& w, const Field& v2,
-                                           const Field& w2) const {
-  glm::dvec3 factor(0.0), factor2(0.0);
-  const std::vector<glm::dvec3>& u = state_.unshot();
+void ErrorBounds::Comparison::set(const Field& v, const Field& w, const ErrorBounds& bounds) {
+  inverse_w.resize(v.size());
+  squares = glm::dvec3(0.0);
   for (std::size_t q = 0; q < v.size(); ++q) {
-    factor = glm::max(factor, glm::abs(u[q]) / w[q]);
-    if (!v2.empty()) factor2 = glm::max(factor2, glm::abs(u[q]) / w2[q]);
+    inverse_w[q] = 1.0 / w[q];
+    const glm::dvec3 more = glm::max(v[q] - w[q], glm::dvec3(0.0));
+    if (bounds.counted_[q]) squares += bounds.state_.area()[q] * more * more;
   }
-  Field above(v.size());
-  for (std::size_t q = 0; q < v.size(); ++q) {
-    above[q] = factor * glm::max(v[q] - w[q], glm::dvec3(0.0));
-    if (!v2.empty()) above[q] = glm::min(above[q], factor2 * glm::max(v2[q] - w2[q], glm::dvec3(0.0)));
-  }
-  return above;
-}
-
-double ErrorBounds::upperOf(const Field& above) const { return upperOf(rmsCounted(above)); }
-
-double ErrorBounds::upperOf(double rms) const {
-  const double now = rmsCounted(reflectedNow());
-  return now > rms ? rms / (now - rms) : kNoBound;
-}
-
-// A bound of the RMS of (I - M)^-1 M y where errors count.
-double ErrorBounds::rmsAfter(const Field& y) const {
-  return counted_area_ > 0 ? std::sqrt(norm_.squaresAfter(y) / (3 * counted_area_)) : 0;
-}
-
-// By way of the nearby solution, where there is one.
-double ErrorBounds::rmsFromNearby() const {
-  if (nearby_.empty()) return kNoBound;
-  Field off(nearby_.size());
-  for (std::size_t q = 0; q < off.size(); ++q) off[q] = nearby_[q] - state_.shot()[q] - state_.unshot()[q];
-  return rmsCounted(off) + nearby_error_;
 }
 
 // With signs, so that what cancels in M U counts as cancelled: e = M U + ... + M^k U + (I - M)^-1 M (M^k U).
@@ -307,39 +312,42 @@ SolverBounds ErrorBounds::sharpened(int products) {
     std::swap(power, image);
     for (std::size_t q = 0; q < n; ++q) powers[q] += power[q];
   }
-  glm::dvec3 factor(0.0);
-  for (std::size_t q = 0; q < n; ++q) factor = glm::max(factor, glm::abs(power[q]) / w_[q]);
+  glm::dvec3 factor(0.0), rest(0.0);
+  for (std::size_t q = 0; q < n; ++q) {
+    factor = glm::max(factor, glm::abs(power[q]) / w_[q]);
+    rest += norm_.weights()[q] * power[q] * power[q];
+  }
   Field above(n);
   for (std::size_t q = 0; q < n; ++q) {
     above[q] = glm::abs(powers[q]) * (1 + kRounding) + factor * glm::max(v_[q] - w_[q], glm::dvec3(0.0));
   }
   nearby_.resize(n);
   for (std::size_t q = 0; q < n; ++q) nearby_[q] = state_.shot()[q] + state_.unshot()[q] + powers[q];
-  nearby_error_ = rmsAfter(power) + rmsCounted(powers) * kRounding;
-  out.upper = std::min({out.upper, upperOf(above), upperOf(rmsFromNearby())});
+  const double known = rmsCounted(powers), error = rmsCounted(above);
+  nearby_error_ = rmsOf(norm_.squaresAfter(rest)) + known * kRounding;
+  const Sums sums = sumsNow();
+  out.upper = std::min(out.upper, upperOf(std::min(error, known + nearby_error_), sums));
+  adapted_ = {};
   if (low < -kSignless * high) return out;
-  const double now = rmsCounted(reflectedNow()), error = rmsCounted(above);
-  if (now + error > 0) out.lower = rmsCounted(powers) * (1 - kRounding) / (now + error);
+  const double now = rmsOf(sums.reflected_squares);
+  if (now + error > 0) out.lower = known * (1 - kRounding) / (now + error);
   // U >= 0: x = U + M U + ... + M^(k-1) U + factor v is a comparison of U's own shape, (I - M) x = U - M^k U
   // + factor w, which is U at least; for the steps that follow, until U has another shape.
-  adapted_v_.resize(n);
-  adapted_w_.resize(n);
+  Field v(n), w(n);
   factor *= kAdaptedMargin;
   for (std::size_t q = 0; q < n; ++q) {
     const glm::dvec3 u = glm::max(state_.unshot()[q], glm::dvec3(0.0));
-    adapted_v_[q] = u + powers[q] - power[q] + factor * v_[q];
-    adapted_w_[q] = (u - power[q] + factor * w_[q]) - kRounding * adapted_v_[q];
+    v[q] = u + powers[q] - power[q] + factor * v_[q];
+    w[q] = (u - power[q] + factor * w_[q]) - kRounding * v[q];
     for (int c = 0; c < 3; ++c) {
       if (factor[c] == 0) {  // nothing unshot in this channel
-        adapted_v_[q][c] = v_[q][c];
-        adapted_w_[q][c] = w_[q][c];
+        v[q][c] = v_[q][c];
+        w[q][c] = w_[q][c];
       }
-      if (adapted_w_[q][c] > 0) continue;
-      adapted_v_.clear();
-      adapted_w_.clear();
-      return out;
+      if (w[q][c] <= 0) return out;
     }
   }
+  adapted_.set(v, w, *this);
   return out;
 }
 

@@ -79,14 +79,24 @@ class ErrorBounds {
   void startComparison();
   bool lowerComparison();
   void bracketRadius();
-  double totalUpper() const;
-  Field comparison(const Field& v, const Field& w, const Field& v2, const Field& w2) const;
-  double upperOf(const Field& above) const;
-  double upperOf(double rms) const;
-  double rmsAfter(const Field& y) const;
-  double rmsFromNearby() const;
   double rmsCounted(const Field& x) const;
-  Field reflectedNow() const;
+  double rmsOf(double squares) const;
+  // Over patches: what bounds are made of.
+  struct Sums {
+    double weighted = 0, negative = 0;  // A |U| z, A max(-U, 0) z
+    double reflected = 0, reflected_squares = 0, nearby_squares = 0;
+    glm::dvec3 norm{0.0}, factor{0.0}, adapted_factor{0.0};
+  };
+  Sums sumsNow() const;
+  double totalUpper(const Sums& sums) const;
+  double upperOf(double rms, const Sums& sums) const;
+  // Of a pair v, w = v - M v > 0: |e| <= (v - w) max |U| / w.
+  struct Comparison {
+    Field inverse_w;
+    glm::dvec3 squares{0.0};  // sum A (v - w)^2 where errors count
+    bool empty() const { return inverse_w.empty(); }
+    void set(const Field& v, const Field& w, const ErrorBounds& bounds);
+  };
 
   const PatchMatrix& matrix_;
   const RadiosityState& state_;
@@ -98,7 +108,7 @@ class ErrorBounds {
   std::uint64_t compared_version_ = ~std::uint64_t{0};  // of the matrix that w_ belongs to
   Field z_;                                             // empty: no bound
   Field v_, w_, spectral_;
-  Field adapted_v_, adapted_w_;  // another pair, of the shape of U at the last sharpening
+  Comparison compared_, adapted_;  // of v_ and w_; of the shape of U at the last sharpening
   NormBound norm_;
   // B + M U + ... + M^k U at the last sharpening: nearer to the solution, and how far from it at most (RMS).
   Field nearby_;

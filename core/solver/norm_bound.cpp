@@ -10,6 +10,8 @@ namespace unshot {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
+// Times 0 it is 0, unlike infinity.
+constexpr double kHuge = 1e300;
 // The matrix is held in single precision.
 constexpr double kRounding = 4 * 6e-8;
 constexpr int kStepsAtOnce = 2;
@@ -20,7 +22,14 @@ constexpr double kStays = 0.1;
 
 NormBound::NormBound(const PatchMatrix& matrix, const RadiosityState& state)
     : matrix_(matrix), state_(state), norm_(kUnknown) {
-  for (const glm::dvec3& rho : state.reflectance()) most_reflectance_ = glm::max(most_reflectance_, rho);
+  for (std::size_t q = 0; q < state.patchCount(); ++q) {
+    const glm::dvec3& rho = state.reflectance()[q];
+    most_reflectance_ = glm::max(most_reflectance_, rho);
+    weights_.emplace_back(kHuge);
+    for (int c = 0; c < 3; ++c) {
+      if (rho[c] > 0) weights_[q][c] = state.area()[q] / rho[c];
+    }
+  }
 }
 
 void NormBound::refresh() {
@@ -58,20 +67,14 @@ void NormBound::refresh() {
   }
 }
 
-double NormBound::squaresAfter(const std::vector<glm::dvec3>& y) const {
+double NormBound::squaresAfter(const glm::dvec3& squares) const {
   if (version_ != matrix_.version()) return kUnknown;
   double out = 0;
   for (int c = 0; c < 3; ++c) {
-    double squares = 0;
-    for (std::size_t q = 0; q < y.size(); ++q) {
-      if (y[q][c] == 0) continue;
-      const double rho = state_.reflectance()[q][c];
-      squares += rho > 0 ? state_.area()[q] * y[q][c] * y[q][c] / rho : kUnknown;
-    }
-    if (squares == 0) continue;
+    if (squares[c] == 0) continue;
     if (!(norm_[c] < 1)) return kUnknown;
     const double grown = norm_[c] / (1 - norm_[c]);
-    out += most_reflectance_[c] * grown * grown * squares;
+    out += most_reflectance_[c] * grown * grown * squares[c];
   }
   return out;
 }

@@ -23,16 +23,19 @@ class NormBound {
   void refresh();
   /// At most this, per channel: nu.
   const glm::dvec3& norm() const { return norm_; }
-  /// sum A r^2 over patches and channels is at most this, r = (I - M)^-1 M y; infinite where nothing is
-  /// known.
-  double squaresAfter(const std::vector<glm::dvec3>& y) const;
+  /// What |D^1/2 y|^2 is summed up with, one per patch: A / rho; next to infinite where rho is 0.
+  const std::vector<glm::dvec3>& weights() const { return weights_; }
+  /// sum A r^2 over patches and channels is at most this, r = (I - M)^-1 M y, `squares` = |D^1/2 y|^2 per
+  /// channel; infinite where nothing is known.
+  double squaresAfter(const glm::dvec3& squares) const;
 
  private:
   const PatchMatrix& matrix_;
   const RadiosityState& state_;
   glm::dvec3 most_reflectance_{0.0}, norm_;
   std::uint64_t version_ = ~std::uint64_t{0};  // of the matrix that norm_ belongs to
-  std::vector<glm::dvec3> x_;                  // towards the first singular vector, positive where rho is
+  std::vector<glm::dvec3> weights_;
+  std::vector<glm::dvec3> x_;  // towards the first singular vector, positive where rho is
 };
 
 }  // namespace unshot
