@@ -8,18 +8,20 @@ namespace unshot {
 namespace {
 
 // Share of the solver's work that goes into bounds beyond the passes over patches that each step has anyway.
-constexpr double kShare = 0.08;
+constexpr double kShare = 0.05;
 // An operation is one entry of the matrix times a colour, some 5 ns. A column of K takes this many to compute
-// (1 to 2 ms), and a shot along one at hand that many for each entry of its patch column (it has as many
-// receivers on a patch).
-constexpr double kColumnWork = 300'000, kShotWork = 15;
-// Products of a sharpening: on the way no more than this share of what may be spent pays for, but one; at the
-// end all.
-constexpr int kMostProducts = 8;
+// (1 to 2 ms; a draft of one picture a quarter of a millisecond), and a shot along one at hand that many for
+// each entry of its patch column (it has as many receivers on a patch, and is summed up on the way).
+constexpr double kColumnWork = 300'000, kDraftWork = 50'000, kShotWork = 45;
+// Products of a sharpening: on the way no more than this share of what may be spent pays for, but the fewest;
+// at the end all.
+constexpr int kFewestProducts = 2, kMostProducts = 8;
 constexpr double kSpent = 0.25;
 // What a refresh costs in products, before and after all columns are known.
-constexpr double kTotalRefresh = 4, kWholeRefresh = 12;
+constexpr double kTotalRefresh = 4, kWholeRefresh = 20;
 constexpr int kMostRefreshes = 50;
+// Between refreshes for nothing but their gain.
+constexpr int kSharpenings = 3;
 // Weights are lowered again when this share more of the columns is known.
 constexpr double kNews = 0.03;
 
@@ -51,7 +53,8 @@ void ErrorBudget::columnComputed(std::uint32_t q, const Column& column) {
   const Timed timed(seconds_);
   matrix_.set(q, column);
   bounds_.columnChanged(q);
-  credit_ += kShare * kColumnWork;
+  if (!column.at_hand)
+    credit_ += kShare * (column.quality == ColumnQuality::kFull ? kColumnWork : kDraftWork);
 }
 
 void ErrorBudget::restart() {
@@ -66,27 +69,32 @@ const SolverBounds& ErrorBudget::update(std::uint64_t shots) {
   credit_ += kShare * kShotWork * static_cast<double>(shots - shots_) * entries / columns;
   shots_ = shots;
   now_ = bounds_.at();
-  double cost = 1.2 * entries;
+  double cost = (kFewestProducts + 0.2) * entries;
   if (credit_ < cost) return now_;
   const bool known_more = static_cast<double>(matrix_.knownCount()) >=
                           static_cast<double>(refreshed_count_) + kNews * static_cast<double>(matrix_.size());
   const bool rested = refreshed_version_ != matrix_.version() && matrix_.version() == last_version_;
   last_version_ = matrix_.version();
-  if (known_more || rested || (gains_ && refreshed_version_ == matrix_.version())) {
+  if (known_more || rested ||
+      (gains_ && refreshed_version_ == matrix_.version() &&
+       (sharpenings_ >= kSharpenings || !bounds_.comparable()))) {
     cost = (bounds_.complete() ? kWholeRefresh : kTotalRefresh) * entries;
     if (credit_ < cost) return now_;
     gains_ = bounds_.refresh();
     refreshed_count_ = matrix_.knownCount();
     refreshed_version_ = matrix_.version();
+    sharpenings_ = 0;
     credit_ -= cost;
     now_ = bounds_.at();
-    cost = 1.2 * entries;
+    cost = (kFewestProducts + 0.2) * entries;
     if (credit_ < cost) return now_;
   }
   if (bounds_.comparable()) {
-    const double affordable = std::clamp(kSpent * credit_ / entries, 1.0, double{kMostProducts});
+    const double affordable =
+        std::clamp(kSpent * credit_ / entries, double{kFewestProducts}, double{kMostProducts});
     const int products = static_cast<int>(affordable);
     now_ = bounds_.sharpened(products);
+    ++sharpenings_;
     cost = (products + 0.2) * entries;
   } else {
     return now_;

@@ -54,6 +54,7 @@ class ErrorBudget {
   std::uint64_t refreshed_version_ = ~std::uint64_t{0};
   std::uint64_t last_version_ = 0;
   bool gains_ = true;
+  int sharpenings_ = 0;  // since the last refresh
   double seconds_ = 0;
 };
 

@@ -14,7 +14,7 @@ constexpr double kUnknown = std::numeric_limits<double>::infinity();
 constexpr double kHuge = 1e300;
 // The matrix is held in single precision.
 constexpr double kRounding = 4 * 6e-8;
-constexpr int kStepsAtOnce = 2;
+constexpr int kStepsAtOnce = 6;
 // So much of x stays, that it never comes near 0 where little light goes.
 constexpr double kStays = 0.1;
 
