@@ -57,6 +57,7 @@ std::pair<Column, const Column&> Transport::refine(std::uint32_t q) {
     kept_[q].reset();
   }
   if (passing_patch_ == q) passing_patch_ = kNone;
+  ++replaced_;
   const bool once = *quality_[q] == ColumnQuality::kGroup;
   const Column& better = keep(q, compute(q, once ? ColumnQuality::kOnePoint : ColumnQuality::kFull));
   if (better.quality == ColumnQuality::kFull) ++refined_;

@@ -43,6 +43,8 @@ class Transport {
   std::size_t count(ColumnQuality quality) const { return counts_[static_cast<std::size_t>(quality)]; }
   std::size_t draftCount() const { return count(ColumnQuality::kGroup) + count(ColumnQuality::kOnePoint); }
   std::uint64_t refined() const { return refined_; }  ///< drafts that became full columns so far
+  /// Columns that gave way to better ones so far: K is the same as long as this is.
+  std::uint64_t replaced() const { return replaced_; }
   /// Replaces the draft of q by the next better column: first = before, second = from now on.
   std::pair<Column, const Column&> refine(std::uint32_t q);
   Row row(std::uint32_t v);
@@ -67,7 +69,7 @@ class Transport {
   std::vector<std::unique_ptr<Column>> kept_;
   Column passing_;  // the last column that found no room
   std::uint32_t passing_patch_ = kNone;
-  std::uint64_t computed_ = 0, refined_ = 0;
+  std::uint64_t computed_ = 0, refined_ = 0, replaced_ = 0;
   std::vector<std::optional<ColumnQuality>> quality_;  // of the columns used so far
   std::array<std::size_t, 3> counts_{};                // by quality
   bool drafts_allowed_ = false;

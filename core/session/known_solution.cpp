@@ -9,7 +9,7 @@ namespace unshot {
 void KnownSolution::learn(const RadiosityState& state, const Transport& transport) {
   radiosity_ = state.shot();
   for (std::size_t q = 0; q < radiosity_.size(); ++q) radiosity_[q] += state.unshot()[q];
-  refined_ = transport.refined();
+  replaced_ = transport.replaced();
 }
 
 std::optional<double> KnownSolution::errorOf(const RadiosityState& state, const Transport& transport) const {

@@ -15,7 +15,7 @@ class KnownSolution {
   /// Takes B = S + U of a state that is solved to rounding.
   void learn(const RadiosityState& state, const Transport& transport);
   bool known(const Transport& transport) const {
-    return !radiosity_.empty() && refined_ == transport.refined();
+    return !radiosity_.empty() && replaced_ == transport.replaced();
   }
   /// RMS of B - B* over RMS of B* - E, on patches without emission of their own (on all, where all emit),
   /// weighted by area, over channels: what SolverBounds::upper bounds. Nothing where the solution is not
@@ -24,7 +24,7 @@ class KnownSolution {
 
  private:
   std::vector<glm::dvec3> radiosity_;
-  std::uint64_t refined_ = 0;
+  std::uint64_t replaced_ = 0;
 };
 
 }  // namespace unshot

@@ -105,7 +105,10 @@ bool LiveSolve::hasSpareWork() const {
   return !no_more_places_ && (estimates_stale_ || solve_->places() < kPlacesAtRest);
 }
 
+// Nothing shot yet says nothing.
 bool LiveSolve::hasBounceWork() const {
+  const Measures& m = solve_->measures();
+  if (m.shots == 0 || !std::isfinite(m.unshot_fraction)) return false;
   return !no_more_bounces_ && solve_->hasBouncesToWorkOut(complete_bounces_);
 }
 

@@ -40,7 +40,7 @@ class BounceSeries {
   const std::vector<glm::dvec3>& received() const { return received_; }
 
  private:
-  std::uint64_t version() const { return transport_.computed() + transport_.refined(); }
+  std::uint64_t version() const { return transport_.computed() + transport_.replaced(); }
 
   Transport& transport_;
   const RadiosityState& state_;

@@ -9,7 +9,7 @@ namespace unshot {
 namespace {
 
 // Products with the matrix in one refresh.
-constexpr int kProductsAtOnce = 4;
+constexpr int kProductsAtOnce = 4, kPowerSteps = 6;
 // Partial sums of (I - M)^-1 1 that are tried for a positive v - M v.
 constexpr int kMostSums = 200;
 // The matrix is held in single precision.
@@ -159,7 +159,9 @@ bool ErrorBounds::lowerComparison() {
 void ErrorBounds::bracketRadius() {
   if (spectral_.size() != matrix_.size()) spectral_ = state_.reflectance();
   Field image(spectral_.size());
-  for (int k = 0; k < 2; ++k) {
+  radius_lower_ = glm::dvec3(0.0);
+  radius_upper_ = glm::dvec3(kNoBound);
+  for (int k = 0; k < kPowerSteps; ++k) {
     multiply(spectral_, image);
     for (int c = 0; c < 3; ++c) {
       double low = kNoBound, high = 0, most = 0;
@@ -169,8 +171,8 @@ void ErrorBounds::bracketRadius() {
         low = std::min(low, image[q][c] / spectral_[q][c]);
         high = std::max(high, image[q][c] / spectral_[q][c]);
       }
-      radius_lower_[c] = low < kNoBound ? low : 0;
-      radius_upper_[c] = high;
+      radius_lower_[c] = std::max(radius_lower_[c], low < kNoBound ? low : 0);
+      radius_upper_[c] = std::min(radius_upper_[c], high);
       for (std::size_t q = 0; q < image.size(); ++q) spectral_[q][c] = most > 0 ? image[q][c] / most : 0;
     }
   }

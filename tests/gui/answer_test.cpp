@@ -21,7 +21,7 @@ using testing_support::Screen;
 using testing_support::WindowRun;
 using testing_support::xdotool;
 
-constexpr int kInputs = 52;      // a multiple of four: the help is closed again after every other click
+constexpr int kInputs = 24;      // a multiple of four: the help is closed again after every other click
 constexpr double kLook = 0.001;  // [s], between two looks at the screen: the solver is not to feel them
 constexpr double kRest = 0.2;    // [s], longer than a hint takes to appear
 constexpr double kAim = 0.05;    // [s]
