@@ -7,6 +7,7 @@
 #include "formfactor/methods.h"
 #include "gl/context.h"
 #include "session/bounces.h"
+#include "session/draft_refinement.h"
 #include "session/error_budget.h"
 #include "session/fields.h"
 #include "session/known_solution.h"
@@ -61,8 +62,8 @@ struct Solve::Impl {
   Measures measures;
   std::vector<HistoryEntry> history;
   bool resting = false, mode_failed = false;
-  std::optional<ColumnQuality> refining;       // drafts of this quality are giving way
-  double measured_wall = 0, measured_cpu = 0;  // when `measures` were taken
+  DraftRefinement drafts;
+  double measured_wall = 0, measured_cpu = 0;                            // when `measures` were taken
   std::shared_ptr<const std::vector<glm::vec3>> direct, element_direct;  // for emission_shots of the state
   std::uint64_t emission_shots = 0;
   std::shared_ptr<const std::vector<glm::vec3>> bounces, residual;
@@ -84,9 +85,7 @@ struct Solve::Impl {
   void checkLimits();
   void checkStagnation();
   void record();
-  bool refinesNow();
-  void refineBrightest();
-  ColumnQuality leastQuality() const;
+  void refine();
   std::optional<std::size_t> iterate();
 };
 
@@ -255,36 +254,9 @@ void Solve::Impl::record() {
   if (ended || now >= last + std::max<std::uint64_t>(1, last / 100)) history.push_back({measures});
 }
 
-// Once the error is reached with drafts, all of the least quality give way, one a step, before the mode goes
-// on with what that brought.
-bool Solve::Impl::refinesNow() {
-  const std::optional<ColumnQuality> before = std::exchange(refining, std::nullopt);
-  if (measures.drafts == 0) return false;
-  if (measures.solverBound() <= options.error || before == leastQuality()) refining = leastQuality();
-  return refining.has_value();
-}
-
-// Of the drafts of the least quality, that whose patch has shot the most power gives way to the next better
-// column; columns that are new from now on are full.
-void Solve::Impl::refineBrightest() {
-  transport->allowDrafts(false);
+void Solve::Impl::refine() {
   mode.reset();
-  std::uint32_t brightest = kNone;
-  double most = -1;
-  for (std::uint32_t q = 0; q < state->patchCount(); ++q) {
-    if (transport->quality(q) != leastQuality()) continue;
-    const glm::dvec3& shot = state->shot()[q];
-    const double power = state->area()[q] * (std::abs(shot.x) + std::abs(shot.y) + std::abs(shot.z));
-    if (power <= most) continue;
-    most = power;
-    brightest = q;
-  }
-  const auto [draft, column] = transport->refine(brightest);
-  state->replaceColumn(brightest, draft, column);
-}
-
-ColumnQuality Solve::Impl::leastQuality() const {
-  return transport->count(ColumnQuality::kGroup) > 0 ? ColumnQuality::kGroup : ColumnQuality::kOnePoint;
+  drafts.step(*transport, *state);
 }
 
 // A step of the mode; one that cannot go on ends the solve as failed, with what it has.
@@ -312,15 +284,15 @@ void Solve::step() {
   s.wakeClocks();
   bool nothing_left = false;
   bool refined = true;
-  if (s.refinesNow()) {
-    s.refineBrightest();
+  if (s.drafts.due(*s.transport, s.measures.solverBound() <= s.options.error)) {
+    s.refine();
   } else if (const auto used = s.iterate()) {
     s.measures.shots += *used;
     refined = false;
   } else {
     nothing_left = s.measures.drafts == 0;
     refined = !nothing_left;
-    if (refined) s.refineBrightest();
+    if (refined) s.refine();
   }
   s.learnSolution();
   s.measure();
@@ -342,7 +314,7 @@ void Solve::again() {
   s.direct = s.element_direct = nullptr;
   s.failure.reset();
   s.mode_failed = s.resting = false;
-  s.refining.reset();
+  s.drafts = {};
   s.rows_before = s.transport->computed();
   s.measures.shots = 0;
   s.solve_start = wallSeconds();
