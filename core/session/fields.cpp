@@ -65,4 +65,33 @@ Snapshot makeFields(std::shared_ptr<const Mesh> mesh_in, const Transport& transp
   return out;
 }
 
+void SharedFields::addTo(Snapshot& out, const Transport& transport, const RadiosityState& state,
+                         const ErrorBounds& bounds) {
+  const auto shared = [](std::vector<glm::vec3> field) {
+    return std::make_shared<const std::vector<glm::vec3>>(std::move(field));
+  };
+  if (!direct_ || emission_shots_ != state.emissionShots()) {
+    MeshField direct = makeField(*out.mesh, transport.receivers(), state.direct());
+    direct_ = shared(std::move(direct.vertices));
+    element_direct_ = shared(std::move(direct.elements));
+    emission_shots_ = state.emissionShots();
+  }
+  if (bounces_revision_ != bounds.revision()) {
+    const std::vector<glm::dvec3>& v = bounds.expectedBounces();
+    bounces_ = v.empty() ? nullptr : shared(fieldOfPatches(*out.mesh, v));
+    bounces_revision_ = bounds.revision();
+  }
+  out.direct = direct_;
+  out.element_direct = element_direct_;
+  out.bounces = bounces_;
+  out.residual = residual_;
+}
+
+void SharedFields::setResidual(const Mesh& mesh, const std::vector<double>& per_patch) {
+  if (per_patch.empty()) return;
+  std::vector<glm::dvec3> values;
+  for (const double r : per_patch) values.emplace_back(r);
+  residual_ = std::make_shared<const std::vector<glm::vec3>>(fieldOfPatches(mesh, values));
+}
+
 }  // namespace unshot

@@ -5,6 +5,7 @@
 #include "formfactor/transport.h"
 #include "session/snapshot.h"
 #include "solver/ambient.h"
+#include "solver/bounds.h"
 #include "solver/state.h"
 
 namespace unshot {
@@ -19,5 +20,24 @@ std::vector<glm::vec3> fieldOfPatches(const Mesh& mesh, const std::vector<glm::d
 /// All of the snapshot but its measures, direct light, bounces and residual.
 Snapshot makeFields(std::shared_ptr<const Mesh> mesh, const Transport& transport, const RadiosityState& state,
                     const AmbientTerm& ambient);
+
+/// The fields that snapshots share as long as they do not change: direct light, expected bounces, residual.
+class SharedFields {
+ public:
+  /// Puts them into `out`, made anew where the state or the bounds have others than at the last call.
+  void addTo(Snapshot& out, const Transport& transport, const RadiosityState& state,
+             const ErrorBounds& bounds);
+  /// RMS residual, one per patch [W/m^2].
+  void setResidual(const Mesh& mesh, const std::vector<double>& per_patch);
+  /// The state shoots again from nothing.
+  void forgetDirect() { direct_ = element_direct_ = nullptr; }
+
+ private:
+  using Field = std::shared_ptr<const std::vector<glm::vec3>>;
+
+  Field direct_, element_direct_, bounces_, residual_;
+  std::uint64_t emission_shots_ = 0;    // of the state that direct_ is of
+  std::uint64_t bounces_revision_ = 0;  // of the bounds
+};
 
 }  // namespace unshot

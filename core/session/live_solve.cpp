@@ -99,17 +99,18 @@ void LiveSolve::step() {
 }
 
 bool LiveSolve::hasSpareWork() const {
-  if (!solve_ || broken_ || running() || !task_.empty() || solve_->measures().shots == 0) return false;
-  if (!std::isfinite(solve_->measures().unshot_fraction)) return false;
+  if (!solve_ || broken_ || running() || !task_.empty() || !hasLight()) return false;
   if (hasBounceWork()) return true;
   return !no_more_places_ && (estimates_stale_ || solve_->places() < kPlacesAtRest);
 }
 
 // Nothing shot yet says nothing.
+bool LiveSolve::hasLight() const {
+  return solve_->measures().shots > 0 && std::isfinite(solve_->measures().unshot_fraction);
+}
+
 bool LiveSolve::hasBounceWork() const {
-  const Measures& m = solve_->measures();
-  if (m.shots == 0 || !std::isfinite(m.unshot_fraction)) return false;
-  return !no_more_bounces_ && solve_->hasBouncesToWorkOut(complete_bounces_);
+  return hasLight() && !no_more_bounces_ && solve_->hasBouncesToWorkOut(complete_bounces_);
 }
 
 void LiveSolve::workOutBounces() {

@@ -92,6 +92,7 @@ class LiveSolve {
   void begin(Scene scene, const SolveOptions& options, double load_seconds);
   void announce(const std::string& task);
   void settle();
+  bool hasLight() const;
   bool hasBounceWork() const;
   void workOutBounces();
   void estimateInPassing();

@@ -63,11 +63,8 @@ struct Solve::Impl {
   std::vector<HistoryEntry> history;
   bool resting = false, mode_failed = false;
   DraftRefinement drafts;
-  double measured_wall = 0, measured_cpu = 0;                            // when `measures` were taken
-  std::shared_ptr<const std::vector<glm::vec3>> direct, element_direct;  // for emission_shots of the state
-  std::uint64_t emission_shots = 0;
-  std::shared_ptr<const std::vector<glm::vec3>> bounces, residual;
-  std::uint64_t bounces_revision = 0;  // of the bounds
+  double measured_wall = 0, measured_cpu = 0;  // when `measures` were taken
+  SharedFields shared;
   StagnationWatch stagnation;
 
   Impl(Scene scene_in, SolveOptions options_in)
@@ -311,7 +308,7 @@ void Solve::again() {
   s.state->reset();
   s.budget->restart();
   s.mode.reset();
-  s.direct = s.element_direct = nullptr;
+  s.shared.forgetDirect();
   s.failure.reset();
   s.mode_failed = s.resting = false;
   s.drafts = {};
@@ -358,10 +355,7 @@ const ErrorEstimates& Solve::estimate(std::size_t more_places) {
   const double cpu_began = cpuSeconds();
   rest();
   s.budget->estimate(more_places);
-  std::vector<glm::dvec3> residuals;
-  for (const double r : s.budget->patchResiduals()) residuals.emplace_back(r);
-  if (!residuals.empty())
-    s.residual = std::make_shared<const std::vector<glm::vec3>>(fieldOfPatches(*s.mesh, residuals));
+  s.shared.setResidual(*s.mesh, s.budget->patchResiduals());
   s.seconds.cpu_solve += cpuSeconds() - cpu_began;
   return s.budget->estimates();
 }
@@ -401,28 +395,13 @@ Snapshot Solve::snapshot() const {
   const Impl& s = *impl_;
   Snapshot out = makeFields(s.mesh, *s.transport, *s.state, *s.ambient);
   out.measures = s.measures;
-  if (!impl_->direct || s.emission_shots != s.state->emissionShots()) {
-    MeshField direct = makeField(*s.mesh, s.transport->receivers(), s.state->direct());
-    impl_->direct = std::make_shared<const std::vector<glm::vec3>>(std::move(direct.vertices));
-    impl_->element_direct = std::make_shared<const std::vector<glm::vec3>>(std::move(direct.elements));
-    impl_->emission_shots = s.state->emissionShots();
-  }
-  if (s.bounces_revision != s.budget->bounds().revision()) {
-    const std::vector<glm::dvec3>& v = s.budget->bounds().expectedBounces();
-    impl_->bounces =
-        v.empty() ? nullptr : std::make_shared<const std::vector<glm::vec3>>(fieldOfPatches(*s.mesh, v));
-    impl_->bounces_revision = s.budget->bounds().revision();
-  }
-  out.bounces = s.bounces;
+  impl_->shared.addTo(out, *s.transport, *s.state, s.budget->bounds());
   out.bounce_light = s.bounces_of_light->light();
   if (!out.bounce_light && s.mode) {
     std::vector<glm::dvec3> powers = s.mode->bouncePowers();
     if (powers.size() > 1) out.bounce_light = std::make_shared<const BounceLight>(BounceLight{powers, {}});
   }
   out.bounce_wait = s.bounces_of_light->wait();
-  out.residual = s.residual;
-  out.direct = s.direct;
-  out.element_direct = s.element_direct;
   return out;
 }
 
