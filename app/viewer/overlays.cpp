@@ -100,6 +100,9 @@ void buildOverlays(Viewer& viewer, int scene_width, const std::string& notice, b
     line("framing", "looking for a good view \u2026", {middle, height / 2}, {0.5f, 0.5f});
   } else if (state.phase == SessionPhase::kEmpty && !viewer.error()) {
     line("empty", "Drop an OBJ scene here", {middle, height / 2}, {0.5f, 0.5f});
+  } else if (state.stopped_by == "no light") {
+    line("dark", "No face of this scene emits light: give a material an emission (Ke above 0)",
+         {middle, height / 2}, {0.5f, 0.5f});
   }
   if (viewer.error()) {
     errorWindow(viewer, middle);

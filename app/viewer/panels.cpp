@@ -54,6 +54,7 @@ PhaseLook lookOf(const SessionState& state) {
     case SessionPhase::kPaused:
       return {"Paused", {0.6f, 0.7f, 0.85f, 1}};
     case SessionPhase::kConverged:
+      if (state.stopped_by == "no light") return {"No light", {0.85f, 0.75f, 0.5f, 1}};
       return {"Converged", {0.5f, 0.85f, 0.5f, 1}};
     case SessionPhase::kStopped:
       return {"Limit reached", {0.85f, 0.75f, 0.5f, 1}};

@@ -264,5 +264,29 @@ TEST(Program, AScreenshotThatCannotBeWrittenIsReported) {
   EXPECT_TRUE(folder.names().contains("here.png"));
 }
 
+// The scene is black, and the window says why.
+TEST(Program, ASceneWithoutLightSaysSo) {
+  const TempFolder folder;
+  folder.write("dark.obj", "v 0 0 0\nv 2 0 0\nv 2 0 2\nv 0 0 2\nv 0 2 0\nv 2 2 0\nf 1 4 3 2\nf 1 2 6 5\n");
+  const ProgramResult run =
+      runScript(folder, "wait converged\nscreenshot window.png\nscreenshot-scene scene.png\nquit\n",
+                {"dark.obj", "--size", "1280x720"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  const ImageF window = picture(folder, "window.png"), scene = picture(folder, "scene.png");
+  const auto brightest = [&](const ImageF& image) {
+    float most = 0;
+    for (int y = image.height / 2 - 20; y < image.height / 2 + 20; ++y) {
+      for (int x = 300; x < 700; ++x) {
+        const std::size_t pixel = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                                       static_cast<std::size_t>(x));
+        most = std::max(most, image.rgb[pixel]);
+      }
+    }
+    return most;
+  };
+  EXPECT_LT(brightest(scene), 0.05f) << "there is light";
+  EXPECT_GT(brightest(window), 0.3f) << "no text over the scene";
+}
+
 }  // namespace
 }  // namespace unshot
