@@ -173,6 +173,16 @@ const std::
                 Action{"mode", "KEY", "Iterate in another way; what was shot and received stays", kNone,
                        [](Viewer& v, const std::string& a) { v.setMode(a); },
                        [](const std::string& a) { return checkKey(iterationModes(), true, a); }},
+                Action{"race", "KEY|off",
+                       "Both from nothing: this iteration mode against another, side by side", kNone,
+                       [](Viewer& v, const std::string& a) {
+                         v.race(a == "off" ? std::nullopt : std::optional(a));
+                       },
+                       [](const std::string& a) {
+                         if (a == "off") return std::string();
+                         const std::string wrong = checkKey(iterationModes(), true, a);
+                         return wrong.empty() ? wrong : wrong + ", off";
+                       }},
                 Action{"form-factors", "KEY", "Solve again with another form-factor method", kNone,
                        [](Viewer& v, const std::string& a) {
                          v.ui().options.form_factors = a;

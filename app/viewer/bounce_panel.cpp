@@ -11,7 +11,6 @@ namespace unshot {
 namespace {
 
 // Bars are logarithmic, from this part of the light emitted (no bar) to all of it.
-constexpr double kLeastShown = 1e-4;
 constexpr int kDecades = 4;
 constexpr float kHeight = 6;  // of the bars, in font sizes
 

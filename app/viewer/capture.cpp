@@ -17,7 +17,7 @@ constexpr double kMostSamples = 3e7;  // 16 bytes each
 class Canvas {
  public:
   Canvas(gl::Context& context, int width, int height)
-      : fn_(context.functions()), texture_(context), framebuffer_(context), width_(width), height_(height) {
+      : fn_(context.functions()), texture_(context), framebuffer_(context), height_(height) {
     fn_.BindTexture(GL_TEXTURE_2D, texture_.id());
     fn_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
     fn_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -48,7 +48,7 @@ class Canvas {
   const gl::Functions& fn_;
   gl::Texture texture_;
   gl::Framebuffer framebuffer_;
-  int width_, height_;
+  int height_;
 };
 
 }  // namespace
@@ -82,14 +82,14 @@ void Viewer::capture(const Capture& wanted, int width, int height, int scene_wid
   try {
     const StateGuard guard(setup_.display->functions());
     if (sceneStands()) {
-      scene_.setSnapshot(state_->snapshot);
+      scene_.setSnapshots(state_->snapshot, rivalSnapshot());
       int samples = kSamplesAlongPixel;
       while (samples > 1 && 1.0 * width * height * samples * samples > kMostSamples) --samples;
       scene_.draw({navigator_.camera(), ui_.settings, scene_width, height, samples}, -1,
                   SceneDisplay::kAtOnce);
     }
     const Canvas canvas(*setup_.display, width, height);
-    paint(canvas.framebuffer(), width, height, wanted.with_panels);
+    paint(canvas.framebuffer(), width, height, scene_width, wanted.with_panels);
     writePng(wanted.path, canvas.read(wanted.with_panels ? width : scene_width));
     notice("written: " + wanted.path.string());
   } catch (const Error& error) {

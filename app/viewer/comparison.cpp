@@ -157,12 +157,6 @@ std::string bounceWaitText(const SessionState& state) {
          " columns of form factors are missing";
 }
 
-bool bouncesComing(const SessionState& state) {
-  const bool rests = state.phase == SessionPhase::kPaused || state.phase == SessionPhase::kConverged ||
-                     state.phase == SessionPhase::kStopped;
-  return rests && state.bounces_under_way;
-}
-
 std::shared_ptr<const ReferenceLight> rememberedLight(const SessionState& state, const LightChoice& choice) {
   const Snapshot& snapshot = snapshotOf(state);
   return std::make_shared<const ReferenceLight>(referenceLight(snapshot, choice, nameOf(snapshot, choice)));

@@ -22,8 +22,6 @@ std::shared_ptr<const ReferenceLight> loadedLight(const SessionState& state,
 
 /// How many bounces are shown, where that is a number and known; else 0.
 std::uint32_t shownBounces(const Snapshot& snapshot, const LightChoice& choice);
-/// Whether the solve rests and works out light by bounces: a picture of it would be one of many.
-bool bouncesComing(const SessionState& state);
 /// What light by bounces waits for, as a sentence; empty where for nothing.
 std::string bounceWaitText(const SessionState& state);
 

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "viewer/plot.h"
 #include "viewer/plot_axes.h"
+#include "viewer/race_panel.h"
 #include "viewer/widgets.h"
 
 namespace unshot {
@@ -41,6 +42,13 @@ void errorBar(const char* name, double value, const std::string& text, const ImV
   tooltip(tip);
 }
 
+std::string estimateText(const ErrorEstimate& e) {
+  if (e.places == 0) return "not known yet";
+  return percentText(e.value) + " (" + percentText(e.low) + " to " + percentText(e.high) + ")";
+}
+
+}  // namespace
+
 std::string solverText(const Measures& m) {
   const bool bounded = m.solverBound() < kMostShown;
   if (!m.true_error) return bounded ? "at most " + percentText(m.solverBound()) : "no bound yet";
@@ -50,14 +58,7 @@ std::string solverText(const Measures& m) {
                                      : truth + ", no bound yet";
 }
 
-std::string estimateText(const ErrorEstimate& e) {
-  if (e.places == 0) return "not known yet";
-  return percentText(e.value) + " (" + percentText(e.low) + " to " + percentText(e.high) + ")";
-}
-
-}  // namespace
-
-std::string errorInFront(const SessionState& state) {
+std::string errorInFront(const LaneState& state) {
   const double bound = state.measures.solverBound();
   if (bound >= kMostShown) return percentText(state.measures.unshot_fraction) + " unshot";
   if (state.estimates.both.places == 0) return "error below " + percentText(bound);
@@ -88,23 +89,35 @@ void errorsSection(Viewer& viewer) {
            "estimate with its 95 % interval");
 }
 
+namespace {
+
+struct Curves {
+  std::vector<PlotPoint> unshot, bound;
+};
+
+Curves curvesOf(const LaneState& lane, PlotAxis axis) {
+  Curves curves;
+  if (!lane.history) return curves;
+  curves.unshot.reserve(lane.history->size() + 1);
+  const auto add = [&](const Measures& m) {
+    const double x = axis == PlotAxis::kSeconds ? m.seconds
+                     : axis == PlotAxis::kShots ? static_cast<double>(m.shots)
+                                                : static_cast<double>(m.rows);
+    curves.unshot.push_back({x, m.unshot_fraction});
+    if (m.solverBound() < kMostShown) curves.bound.push_back({x, m.solverBound()});
+  };
+  for (const HistoryEntry& entry : *lane.history) add(entry.measures);
+  add(lane.measures);
+  return curves;
+}
+
+}  // namespace
+
 void convergenceSection(Viewer& viewer) {
   if (!section("Convergence")) return;
   const SessionState& state = viewer.state();
   const PlotAxis axis = viewer.ui().plot_axis;
-  std::vector<PlotPoint> points, bound;
-  if (state.history) {
-    points.reserve(state.history->size() + 1);
-    const auto add = [&](const Measures& m) {
-      const double x = axis == PlotAxis::kSeconds ? m.seconds
-                       : axis == PlotAxis::kShots ? static_cast<double>(m.shots)
-                                                  : static_cast<double>(m.rows);
-      points.push_back({x, m.unshot_fraction});
-      if (m.solverBound() < kMostShown) bound.push_back({x, m.solverBound()});
-    };
-    for (const HistoryEntry& entry : *state.history) add(entry.measures);
-    if (state.facts) add(state.measures);
-  }
+  const Curves curves = curvesOf(state, axis), rival = state.rival ? curvesOf(*state.rival, axis) : Curves{};
   PlotStyle style;
   style.x_unit = axis == PlotAxis::kSeconds ? "s" : "";
   style.goal = viewer.ui().options.error;
@@ -121,9 +134,11 @@ void convergenceSection(Viewer& viewer) {
   tooltip("Columns and rows of form factors computed");
   ImGui::PopStyleVar();
   ImGui::SetCursorPos(corner);
-  style.bound = bound;
-  style.bound_label = "bound of the error";
-  logPlot("##unshot", points, style);
+  style.second = state.rival ? PlotCurve{rival.unshot, "", raceColour(true), true}
+                             : PlotCurve{curves.bound, "bound of the error",
+                                         ImGui::GetStyleColorVec4(ImGuiCol_Text), false};
+  logPlot("##unshot", curves.unshot, style);
+  raceStandings(state);
 }
 
 }  // namespace unshot

@@ -8,7 +8,10 @@
 namespace unshot {
 
 /// The one number: how wrong the picture is, or what is unshot while that is not known.
-std::string errorInFront(const SessionState& state);
+std::string errorInFront(const LaneState& state);
+
+/// What is known of the solver's error: "at most 3 %", "no bound yet", with the true one where that is known.
+std::string solverText(const Measures& m);
 
 /// From which cause the picture is wrong.
 void errorsSection(Viewer& viewer);

@@ -43,7 +43,7 @@ double Viewer::nextSceneWork() const {
   if (scene_.framing() || (sceneStands() && scene_.outdated(wanted()))) return last_scene_work_;
   const double soon = last_scene_work_ + kFrameSeconds;
   if ((sceneStands() && scene_.gliding()) || (frame_wanted_ && state_->snapshot)) return soon;
-  if (state_->snapshot != scene_.snapshot()) return nextSnapshot();
+  if (!scene_.has(state_->snapshot, rivalSnapshot())) return nextSnapshot();
   return mayBeSharpened(kNever) ? std::max(soon, last_motion_ + kRestSeconds) : kNever;
 }
 
@@ -120,8 +120,12 @@ SceneDisplay::Wanted Viewer::wanted() const {
   return {navigator_.camera(), ui_.settings, scene_width_, scene_height_, renderer().hardware ? 2 : 1};
 }
 
+std::shared_ptr<const Snapshot> Viewer::rivalSnapshot() const {
+  return state_->rival ? state_->rival->snapshot : nullptr;
+}
+
 void Viewer::takeSnapshot(double now) {
-  if (state_->snapshot == scene_.snapshot()) return;
+  if (scene_.has(state_->snapshot, rivalSnapshot())) return;
   // What is half drawn is of one state; the next picture shows the new one.
   const bool same_mesh =
       state_->snapshot && scene_.snapshot() && state_->snapshot->mesh == scene_.snapshot()->mesh;
@@ -130,7 +134,7 @@ void Viewer::takeSnapshot(double now) {
   const bool drawn_anyway = sceneStands() && scene_.outdated(wanted());
   if (now < nextSnapshot() && !drawn_anyway && !frame_wanted_) return;
   try {
-    scene_.setSnapshot(state_->snapshot);
+    scene_.setSnapshots(state_->snapshot, rivalSnapshot());
   } catch (const Error& error) {  // too large for the driver: the picture before stays
     fail(error);
   }
@@ -183,7 +187,7 @@ bool Viewer::draw(GLuint framebuffer, int width, int height) {
   const PaintedLook look{framebuffer, width, height, scene_.version(), fingerprint(*ImGui::GetDrawData())};
   const bool changed = painted_ != look;
   painted_ = look;
-  if (changed) paint(framebuffer, width, height, true);
+  if (changed) paint(framebuffer, width, height, scene_width_, true);
   // ImGui shows a new window one frame late.
   if (!captures_.empty() && gui_frames_ == 0) {
     const Capture next = captures_.front();
@@ -213,13 +217,13 @@ void Viewer::presented() {
   session_.setPublishInterval(std::max(kSnapshotSeconds, share * frame_cost_));
 }
 
-void Viewer::paint(GLuint framebuffer, int width, int height, bool gui) {
+void Viewer::paint(GLuint framebuffer, int width, int height, int scene_width, bool gui) {
   const gl::Functions& fn = setup_.display->functions();
   fn.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   fn.Viewport(0, 0, width, height);
   fn.ClearColor(kBackground, kBackground, kBackground, 1);
   fn.Clear(GL_COLOR_BUFFER_BIT);
-  scene_.copyTo(0, 0);
+  scene_.copyTo(scene_width);
   if (gui) gui_.draw(*ImGui::GetDrawData(), width, height);
 }
 

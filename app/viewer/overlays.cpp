@@ -4,6 +4,7 @@
 
 #include "viewer/actions.h"
 #include "viewer/panels.h"
+#include "viewer/race_panel.h"
 
 namespace unshot {
 namespace {
@@ -94,6 +95,7 @@ void buildOverlays(Viewer& viewer, int scene_width, const std::string& notice, b
   const float height = ImGui::GetIO().DisplaySize.y;
   const float middle = static_cast<float>(scene_width) / 2;
   const SessionState& state = viewer.state();
+  buildRaceLabels(viewer, scene_width);
   if (state.phase == SessionPhase::kLoading) {
     line("loading", state.task + " \u2026", {middle, height / 2}, {0.5f, 0.5f});
   } else if (framing && state.facts) {

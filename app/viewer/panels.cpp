@@ -12,6 +12,7 @@
 #include "solver/modes.h"
 #include "viewer/bounce_panel.h"
 #include "viewer/error_panel.h"
+#include "viewer/race_panel.h"
 #include "viewer/theme.h"
 #include "viewer/widgets.h"
 
@@ -194,6 +195,7 @@ void solveSection(Viewer& viewer) {
              shownChoice(iterationModes(), options.mode, state.facts ? state.facts->mode : ""),
              "Progressive refinement, until errors are known");
   if (!mode.empty()) viewer.perform("mode", mode);
+  chooseRival(viewer);
   label("Form factors",
         "What part of a patch's light arrives where. Another method solves again from the start");
   const std::string method = choose(

@@ -34,8 +34,8 @@ class LogPlot {
   void drawGrid(ImDrawList& list) const;
   void drawGoal(ImDrawList& list) const;
   void drawArea(ImDrawList& list) const;
-  void drawCurve(ImDrawList& list) const;
-  void drawBound(ImDrawList& list) const;
+  void drawLine(ImDrawList& list, const std::vector<ImVec2>& curve, ImU32 colour, float thickness) const;
+  void drawSecond(ImDrawList& list) const;
   void drawMarker(ImDrawList& list, ImVec2 at, ImU32 colour) const;
 
   float xOf(double x) const {
@@ -59,16 +59,16 @@ class LogPlot {
   const PlotPoint* last_ = nullptr;  // that is shown
   AxisRange x_range_, y_range_;
   std::vector<Tick> x_ticks_, y_ticks_;
-  std::vector<ImVec2> curve_, bound_;  // in pixels
+  std::vector<ImVec2> curve_, second_;  // in pixels
   // Of the area with the curve, on whole pixels.
   float left_ = 0, right_ = 0, top_ = 0, bottom_ = 0;
   PlotLabels labels_, inner_labels_;
 };
 
-AxisRange valuesOf(std::span<const PlotPoint> points, const PlotStyle& style) {
-  std::vector<PlotPoint> all(points.begin(), points.end());
-  all.insert(all.end(), style.bound.begin(), style.bound.end());
-  return valueRange(all, style.goal);
+std::vector<PlotPoint> together(std::span<const PlotPoint> a, std::span<const PlotPoint> b) {
+  std::vector<PlotPoint> all(a.begin(), a.end());
+  all.insert(all.end(), b.begin(), b.end());
+  return all;
 }
 
 LogPlot::LogPlot(std::span<const PlotPoint> points, const PlotStyle& style, ImVec2 min, ImVec2 max)
@@ -76,8 +76,8 @@ LogPlot::LogPlot(std::span<const PlotPoint> points, const PlotStyle& style, ImVe
       style_(style),
       min_(min),
       max_(max),
-      x_range_(positionRange(points)),
-      y_range_(valuesOf(points, style)),
+      x_range_(positionRange(together(points, style.second.points))),
+      y_range_(valueRange(together(points, style.second.points), style.goal)),
       labels_(min, max, 0.2f * em_),
       inner_labels_(min, max, 0.2f * em_) {
   for (const PlotPoint& point : points) {
@@ -91,10 +91,10 @@ LogPlot::LogPlot(std::span<const PlotPoint> points, const PlotStyle& style, ImVe
   }
   curve_ = thinnedOut(pixels);
   pixels.clear();
-  for (const PlotPoint& point : style.bound) {
+  for (const PlotPoint& point : style.second.points) {
     if (isShown(point)) pixels.push_back(pixelOf(point));
   }
-  bound_ = thinnedOut(pixels);
+  second_ = thinnedOut(pixels);
   placeLabels();
   placeGoalLabel();
 }
@@ -223,29 +223,32 @@ void LogPlot::drawArea(ImDrawList& list) const {
 }
 
 // A sharp turn begins a new piece: mitres of sharp corners would be long spikes.
-void LogPlot::drawCurve(ImDrawList& list) const {
-  const float thickness = wholePixels(em_ / 7.5f);
+void LogPlot::drawLine(ImDrawList& list, const std::vector<ImVec2>& curve, ImU32 colour,
+                       float thickness) const {
   const auto piece = [&](std::size_t begin, std::size_t end) {
-    list.AddPolyline(&curve_[begin], static_cast<int>(end - begin), styled(ImGuiCol_PlotLines), 0, thickness);
+    list.AddPolyline(&curve[begin], static_cast<int>(end - begin), colour, 0, thickness);
   };
   std::size_t begin = 0;
-  for (std::size_t i = 1; i + 1 < curve_.size(); ++i) {
-    const ImVec2 in{curve_[i].x - curve_[i - 1].x, curve_[i].y - curve_[i - 1].y};
-    const ImVec2 out{curve_[i + 1].x - curve_[i].x, curve_[i + 1].y - curve_[i].y};
+  for (std::size_t i = 1; i + 1 < curve.size(); ++i) {
+    const ImVec2 in{curve[i].x - curve[i - 1].x, curve[i].y - curve[i - 1].y};
+    const ImVec2 out{curve[i + 1].x - curve[i].x, curve[i + 1].y - curve[i].y};
     const float cosine = in.x * out.x + in.y * out.y;
     if (cosine > 0.3f * std::sqrt((in.x * in.x + in.y * in.y) * (out.x * out.x + out.y * out.y))) continue;
     piece(begin, i + 1);
     begin = i;
   }
-  if (curve_.size() > begin + 1) piece(begin, curve_.size());
+  if (curve.size() > begin + 1) piece(begin, curve.size());
 }
 
-void LogPlot::drawBound(ImDrawList& list) const {
-  if (bound_.size() < 2) return;
-  const ImU32 colour = styled(ImGuiCol_Text, 0.65f);
-  list.AddPolyline(bound_.data(), static_cast<int>(bound_.size()), colour, 0, wholePixels(em_ / 12));
+void LogPlot::drawSecond(ImDrawList& list) const {
+  if (second_.size() < 2) return;
+  const PlotCurve& second = style_.second;
+  ImVec4 colour = second.colour;
+  if (!second.equal) colour.w *= 0.65f;
+  const ImU32 packed = ImGui::GetColorU32(colour);
+  drawLine(list, second_, packed, wholePixels(em_ / (second.equal ? 7.5f : 12.0f)));
   PlotLabels label({left_, top_}, {right_, bottom_}, 0);
-  label.place(style_.bound_label, {bound_[0].x + 0.4f * em_, bound_[0].y - 0.1f * em_}, {0, 1}, colour);
+  label.place(second.label, {second_[0].x + 0.4f * em_, second_[0].y - 0.1f * em_}, {0, 1}, packed);
   label.draw(list);
 }
 
@@ -259,8 +262,8 @@ void LogPlot::draw(ImDrawList& list) {
   drawGrid(list);
   drawArea(list);
   drawGoal(list);
-  drawBound(list);
-  drawCurve(list);
+  drawSecond(list);
+  drawLine(list, curve_, styled(ImGuiCol_PlotLines), wholePixels(em_ / 7.5f));
   labels_.draw(list);
   inner_labels_.draw(list);
   if (last_) {

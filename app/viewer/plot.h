@@ -14,6 +14,14 @@ struct PlotPoint {
   double y = 0;  ///< values that are not positive are left out
 };
 
+/// A second curve over the same axes.
+struct PlotCurve {
+  std::span<const PlotPoint> points = {};
+  const char* label = "";  ///< beside its beginning
+  ImVec4 colour{1, 1, 1, 1};
+  bool equal = false;  ///< as strong as the first; else fainter, such as a bound of it
+};
+
 struct PlotStyle {
   const char* x_label = "";    ///< under the axis
   const char* x_unit = "";     ///< after the numbers on the axis: "s" gives 0.5 s
@@ -21,9 +29,7 @@ struct PlotStyle {
   std::optional<double> goal;  ///< a dashed line
   bool percent = true;         ///< y as 100 %, 10 %, ...
   float height = 0;            ///< in pixels; 0: five ninths of the width
-  /// A second, thinner curve over the same axes, such as a bound of the first.
-  std::span<const PlotPoint> bound = {};
-  const char* bound_label = "";  ///< beside it
+  PlotCurve second = {};
 };
 
 /// Draws the curve at ImGui's cursor, as wide as the room there is, with decades, ticks at round numbers and,

@@ -1,5 +1,6 @@
 #include "viewer/scene_display.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -71,7 +72,8 @@ std::optional<Camera> SceneDisplay::continueFraming(std::optional<double> second
 bool SceneDisplay::differs(const Wanted& wanted) const {
   return !drawn_ || !sameSamples(*drawn_, wanted) ||
          drawn_->settings.view.exposure_ev != wanted.settings.view.exposure_ev ||
-         drawn_->settings.exposure_locked != wanted.settings.exposure_locked;
+         drawn_->settings.exposure_locked != wanted.settings.exposure_locked ||
+         drawn_->settings.view.automatic_exposure != wanted.settings.view.automatic_exposure;
 }
 
 bool SceneDisplay::sampled(const Wanted& wanted) const { return sampled_ && sameSamples(*sampled_, wanted); }
@@ -219,7 +221,9 @@ void SceneDisplay::expose() {
   const bool follow = !wanted.settings.exposure_locked && wanted.settings.view.light.all();
   if (drawn_ && drawn_->settings.view.display != wanted.settings.view.display) snap_ = true;
   gliding_ = false;
-  if (follow || snap_) {
+  if (const auto& given = wanted.settings.view.automatic_exposure) {
+    exposure_ = *given;
+  } else if (follow || snap_) {
     if (!metered_) metered_ = view_.meter(samples_, viewOf(wanted));
     exposure_ = nextExposure(*metered_, glide_seconds_);
   }
@@ -250,14 +254,14 @@ void SceneDisplay::sharpen(int samples, double deadline) {
   band_piece_ = 0;
 }
 
-void SceneDisplay::copyTo(int x, int y) const {
-  const auto [width, height] = std::pair(shown_.width, shown_.height);
-  if (width == 0) return;
+void SceneDisplay::copyTo(int x, int most) const {
+  const int width = std::min(shown_.width, most), height = shown_.height;
+  if (width <= 0) return;
   const gl::Functions& fn = context_.functions();
   GLint read = 0;
   fn.GetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read);
   fn.BindFramebuffer(GL_READ_FRAMEBUFFER, shown_.framebuffer.id());
-  fn.BlitFramebuffer(0, 0, width, height, x, y, x + width, y + height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  fn.BlitFramebuffer(0, 0, width, height, x, 0, x + width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   fn.BindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read));
 }
 

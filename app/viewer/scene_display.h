@@ -20,7 +20,9 @@ namespace unshot {
 
 /// What the picture is made with, besides snapshot and camera.
 struct DisplaySettings {
-  ViewOptions view;  ///< display mode, exposure_ev, ambient, light, reference; the rest is chosen here
+  /// Display mode, exposure_ev, ambient, light, reference and, where it is given, automatic_exposure; the
+  /// rest is chosen here.
+  ViewOptions view;
   bool exposure_locked = false;  ///< keeps the present exposure instead of following the light
 };
 
@@ -69,8 +71,9 @@ class SceneDisplay {
   bool sharp() const { return !drawn_ || drawing() || next_band_ >= kBands; }
   /// Another number whenever the picture shown has changed.
   std::uint64_t version() const { return version_; }
-  /// Copies the picture to the bound draw framebuffer, its lower left at (x, y).
-  void copyTo(int x, int y) const;
+  /// Copies the picture, or as much of it as fits into `width` columns, to the bottom of the bound draw
+  /// framebuffer, from column `x` on [px].
+  void copyTo(int x, int width) const;
 
   /// Factor from linear values to about 1 for white, before exposure_ev.
   double exposure() const { return exposure_; }

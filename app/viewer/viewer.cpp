@@ -41,6 +41,7 @@ Viewer::Viewer(ViewerSetup setup)
   ui_.options = setup_.options;
   ui_.settings = setup_.settings;
   setScale(1);
+  if (!script_.empty()) hold_.emplace(session_);
   if (!setup_.scene.empty()) open(setup_.scene);
 }
 
@@ -177,6 +178,14 @@ void Viewer::setBounces(std::optional<std::uint32_t> bounces) {
   if (bounces) session_.completeBounces();
 }
 
+void Viewer::race(const std::optional<std::string>& key) {
+  if (key) {
+    session_.race(*key);
+  } else {
+    session_.endRace();
+  }
+}
+
 void Viewer::remember() {
   ui_.settings.view.reference = rememberedLight(*state_, ui_.settings.view.light);
   notice("remembered: " + ui_.settings.view.reference->name);
@@ -220,7 +229,7 @@ void Viewer::resizeWindow(int width, int height) {
 
 bool Viewer::settled() const {
   return session_.sent() == state_->commands && state_->phase != SessionPhase::kLoading && !frame_wanted_ &&
-         !scene_.framing() && captures_.empty() && !bouncesComing(*state_);
+         !scene_.framing() && captures_.empty() && !state_->spareWork();
 }
 
 bool Viewer::waitIsOver(const ScriptLine& line, double now) {
@@ -236,7 +245,15 @@ bool Viewer::waitIsOver(const ScriptLine& line, double now) {
          static_cast<double>(state_->measures.shots) >= line.amount;
 }
 
+// What stands between two waits happens at once: no shot falls between `restart` and `pause on`.
 void Viewer::runScript(double now) {
+  if (scriptDone()) return;
+  if (!hold_) hold_.emplace(session_);
+  runScriptLines(now);
+  hold_.reset();
+}
+
+void Viewer::runScriptLines(double now) {
   while (script_at_ < script_.size() && !closing_ && captures_.empty()) {
     const ScriptLine& line = script_[script_at_];
     if (line.wait != WaitFor::kNothing) {

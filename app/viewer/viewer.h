@@ -21,7 +21,7 @@
 #include "session/session.h"
 #include "viewer/gui_renderer.h"
 #include "viewer/navigator.h"
-#include "viewer/scene_display.h"
+#include "viewer/scene_area.h"
 #include "viewer/script.h"
 
 namespace unshot {
@@ -127,6 +127,8 @@ class Viewer {
   /// Shows the light of so many bounces only, working them out where that takes more form factors; none: all.
   void setBounces(std::optional<std::uint32_t> bounces);
   void completeBounces() { session_.completeBounces(); }
+  /// The present solve against another one in the mode `key`, both from nothing; no key: ends the race.
+  void race(const std::optional<std::string>& key);
   /// What the display mode `difference` compares with: what is shown now; a solution in a file; direct light.
   void remember();
   void loadReference(const std::filesystem::path& ply);
@@ -171,6 +173,7 @@ class Viewer {
   void takeState(double now);
   void noteRates(double now);
   void runScript(double now);
+  void runScriptLines(double now);
   bool waitIsOver(const ScriptLine& line, double now);
   bool settled() const;
   void forgetOldLight();
@@ -183,9 +186,10 @@ class Viewer {
   void takeSnapshot(double now);
   bool sceneStands() const;
   SceneDisplay::Wanted wanted() const;
+  std::shared_ptr<const Snapshot> rivalSnapshot() const;
   bool frame();
   bool drawScene(double now, double deadline);
-  void paint(GLuint framebuffer, int width, int height, bool gui);
+  void paint(GLuint framebuffer, int width, int height, int scene_width, bool gui);
   void capture(const Capture& wanted, int width, int height, int scene_width);
   std::filesystem::path newPictureName() const;
 
@@ -195,7 +199,7 @@ class Viewer {
     ~GuiContext();
   } gui_context_;
   GuiRenderer gui_;
-  SceneDisplay scene_;
+  SceneArea scene_;
   Navigator navigator_;
   Session session_;
   std::shared_ptr<const SessionState> state_;
@@ -227,6 +231,7 @@ class Viewer {
   // Script.
   std::vector<ScriptLine> script_;
   std::size_t script_at_ = 0;
+  std::optional<Session::Hold> hold_;  // while lines of the script run, and before the first
   double wait_began_ = -1;
   std::deque<Capture> captures_;
   int exit_code_ = 0;

@@ -1,9 +1,7 @@
 #include "session/live_solve.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <new>
 #include <utility>
 
 #include "base/clock.h"
@@ -11,55 +9,11 @@
 #include "scene/obj_reader.h"
 
 namespace unshot {
-namespace {
-
-// Errors are estimated from so many places while the solve runs and when it rests.
-constexpr std::size_t kPlacesInPassing = 128, kPlacesAtRest = 512, kPlacesAtOnce = 64;
-constexpr double kEstimateShare = 0.05;
-// An estimate passes over the whole mesh: on a larger one it would be felt as a pause.
-constexpr std::size_t kMostElementsInPassing = 200'000;
-
-// The exception in flight, worded for the person at the keyboard.
-Error presentError() {
-  try {
-    throw;
-  } catch (const Error& error) {
-    return error;
-  } catch (const std::bad_alloc&) {
-    return Error(ErrorKind::kEnvironment, "there is not enough memory", {}, "fewer elements");
-  } catch (const std::exception& error) {
-    return Error(ErrorKind::kInternal, error.what());
-  } catch (...) {
-    return Error(ErrorKind::kInternal, "an unknown exception");
-  }
-}
-
-std::shared_ptr<const SolveFacts> factsOf(const Solve& solve, double load_seconds) {
-  auto facts = std::make_shared<SolveFacts>();
-  const Scene& scene = solve.scene();
-  const Mesh& mesh = solve.mesh();
-  facts->scene_path = scene.path;
-  facts->scene_name = scene.name;
-  facts->options = solve.options();
-  facts->mode = solve.modeKey();
-  facts->form_factors = solve.formFactorsKey();
-  facts->plan = solve.plan();
-  facts->diagnostics = solve.diagnostics();
-  facts->triangles = scene.triangle_count;
-  facts->surfaces = mesh.surfaces.size();
-  facts->patches = mesh.patch_count;
-  facts->elements = mesh.element_count;
-  facts->vertices = mesh.vertices.size();
-  facts->load_seconds = load_seconds;
-  facts->mesh_seconds = solve.seconds().mesh;
-  return facts;
-}
-
-}  // namespace
 
 bool isSuperseded(const Command& command, const Command& later) {
   const bool opens = std::holds_alternative<command::Open>(later);
-  if (std::holds_alternative<command::Open>(command)) return opens;
+  if (std::holds_alternative<command::Open>(command) || std::holds_alternative<command::Race>(command))
+    return opens;
   return std::holds_alternative<command::Restart>(command) &&
          (opens || std::holds_alternative<command::Restart>(later));
 }
@@ -67,7 +21,8 @@ bool isSuperseded(const Command& command, const Command& later) {
 LiveSolve::LiveSolve(LiveSolveSetup setup) : setup_(std::move(setup)) {}
 
 LiveSolve::~LiveSolve() {
-  solve_.reset();  // its GL objects, while the context is still current
+  lane_.reset();  // its GL objects, while the context is still current
+  rival_.reset();
   if (setup_.gl) setup_.gl->release();
 }
 
@@ -76,7 +31,7 @@ void LiveSolve::carryOut(const Command& command) {
     std::visit([this](const auto& c) { perform(c); }, command);
   } catch (const Cancelled&) {
   } catch (...) {
-    noteException();
+    note(presentError());
   }
   task_.clear();
   ++commands_;
@@ -85,83 +40,51 @@ void LiveSolve::carryOut(const Command& command) {
 }
 
 void LiveSolve::step() {
-  try {
-    solve_->step();
-    stale_ = estimates_stale_ = true;
-    estimateInPassing();
-  } catch (...) {
-    noteException();
-    broken_ = problem_->what();
-  }
+  takeSteps();
   if (running() && steps_left_ > 0 && --steps_left_ == 0) paused_ = true;
   settle();
-  if (!running() || pace_.due(wallSeconds(), *setup_.interval)) publish();
+  bool due = !running();
+  forEachLane([&](const Lane& lane) { due = due || lane.due(*setup_.interval); });
+  if (due) publish();
+}
+
+// In a race the clock of one rests while the other takes its step; steps that were asked for are taken by
+// both.
+void LiveSolve::takeSteps() {
+  const auto seconds = [](const Lane& lane) { return lane.solve().measures().seconds; };
+  Lane* behind = nullptr;
+  forEachLane([&](Lane& lane) {
+    if (lane.running() && (!behind || seconds(lane) < seconds(*behind))) behind = &lane;
+  });
+  forEachLane([&](Lane& lane) {
+    if (!lane.running() || (steps_left_ == 0 && &lane != behind)) return;
+    lane.step();
+    if (rival_) lane.rest();
+  });
 }
 
 bool LiveSolve::hasSpareWork() const {
-  if (!solve_ || broken_ || running() || !task_.empty() || !hasLight()) return false;
-  if (hasBounceWork()) return true;
-  return !no_more_places_ && (estimates_stale_ || solve_->places() < kPlacesAtRest);
-}
-
-// Nothing shot yet says nothing.
-bool LiveSolve::hasLight() const {
-  return solve_->measures().shots > 0 && std::isfinite(solve_->measures().unshot_fraction);
-}
-
-bool LiveSolve::hasBounceWork() const {
-  return hasLight() && !no_more_bounces_ && solve_->hasBouncesToWorkOut(complete_bounces_);
-}
-
-void LiveSolve::workOutBounces() {
-  try {
-    if (!solve_->workOutBounces(complete_bounces_)) return;
-  } catch (...) {
-    noteException();
-    no_more_bounces_ = true;
-  }
-  stale_ = true;
-  if (!hasBounceWork() || pace_.due(wallSeconds(), *setup_.interval)) publish();
+  if (running() || !task_.empty()) return false;
+  bool any = false;
+  forEachLane([&](const Lane& lane) { any = any || lane.hasSpareWork(); });
+  return any;
 }
 
 void LiveSolve::spareWork() {
-  if (hasBounceWork()) return workOutBounces();
-  estimateFrom(std::min(kPlacesAtOnce, kPlacesAtRest - std::min(kPlacesAtRest, solve_->places())));
-  publish();
-}
-
-// While it runs: as often as a small share of the solve's time allows.
-void LiveSolve::estimateInPassing() {
-  if (!running() || facts_->elements > kMostElementsInPassing) return;
-  if (estimate_seconds_ > kEstimateShare * solve_->measures().seconds) return;
-  estimateFrom(solve_->places() < kPlacesInPassing ? kPlacesInPassing / 8 : 0);
-}
-
-void LiveSolve::estimateFrom(std::size_t more_places) {
-  const double began = wallSeconds();
-  const std::size_t before = solve_->places();
-  try {
-    solve_->estimate(more_places);
-    no_more_places_ = more_places > 0 && solve_->places() == before;
-  } catch (...) {
-    noteException();
-    no_more_places_ = true;
-  }
-  estimate_seconds_ += wallSeconds() - began;
-  estimates_stale_ = false;
-  stale_ = true;  // the snapshot shows where the mesh is worst
+  Lane& lane = lane_->hasSpareWork() ? *lane_ : *rival_;
+  if (lane.spareWork(*setup_.interval)) publish();
 }
 
 void LiveSolve::perform(const command::Open& c) {
   announce("reading " + c.scene.filename().string());
   const double began = wallSeconds();
-  Scene scene = readObj(c.scene, setup_.given_up);
-  begin(std::move(scene), c.options, wallSeconds() - began);
+  const Scene scene = readObj(c.scene, setup_.given_up);
+  begin(scene, c.options, wallSeconds() - began, std::nullopt);
 }
 
 void LiveSolve::perform(const command::Restart& c) {
-  if (!solve_) throw Error(ErrorKind::kUsage, "there is no scene to solve yet", {}, "open one");
-  begin(solve_->scene(), c.options, facts_->load_seconds);
+  const Lane& lane = present();
+  begin(lane.solve().scene(), c.options, lane.facts().load_seconds, rivalMode());
 }
 
 void LiveSolve::perform(const command::Pause&) {
@@ -182,44 +105,39 @@ void LiveSolve::perform(const command::Step& c) {
 }
 
 void LiveSolve::perform(const command::SetMode& c) {
-  usable().setMode(c.key);
-  failure_noted_ = false;
-  facts_ = factsOf(*solve_, facts_->load_seconds);
+  if (!rival_) return present().setMode(c.key);
+  // A race that is fair begins with nothing shot.
+  const Lane& lane = present();
+  SolveOptions options = lane.facts().options;
+  options.mode = c.key;
+  begin(lane.solve().scene(), options, lane.facts().load_seconds, rivalMode());
 }
 
 void LiveSolve::perform(const command::SetError& c) {
-  usable().setError(c.error);
-  facts_ = factsOf(*solve_, facts_->load_seconds);
+  present();
+  forEachLane([&](Lane& lane) { lane.setError(c.error); });
 }
 
-void LiveSolve::perform(const command::CompleteBounces&) {
-  usable();
-  complete_bounces_ = true;
-}
+void LiveSolve::perform(const command::CompleteBounces&) { present().completeBounces(); }
 
 void LiveSolve::perform(const command::ShootAgain&) {
-  usable().again();
-  history_.reset();
-  failure_noted_ = false;
-  stale_ = estimates_stale_ = true;
-  pace_ = {};
+  present();
+  forEachLane([](Lane& lane) { lane.again(); });
   ++epoch_;
 }
 
+void LiveSolve::perform(const command::Race& c) {
+  const Lane& lane = present();
+  begin(lane.solve().scene(), lane.facts().options, lane.facts().load_seconds, c.mode);
+}
+
+void LiveSolve::perform(const command::EndRace&) { rival_.reset(); }
+
 SessionPhase LiveSolve::phase() const {
   if (!task_.empty()) return SessionPhase::kLoading;
-  if (!solve_) return SessionPhase::kEmpty;
-  if (broken_) return SessionPhase::kFailed;
-  switch (solve_->state()) {
-    case SolveState::kRunning:
-      return paused_ ? SessionPhase::kPaused : SessionPhase::kRunning;
-    case SolveState::kConverged:
-      return SessionPhase::kConverged;
-    case SolveState::kFailed:
-      return SessionPhase::kFailed;
-    default:
-      return SessionPhase::kStopped;
-  }
+  if (!lane_) return SessionPhase::kEmpty;
+  const bool rival_runs = rival_ && rival_->running();
+  return (rival_runs ? *rival_ : *lane_).phase(paused_);
 }
 
 gl::Context& LiveSolve::context() {
@@ -231,50 +149,61 @@ gl::Context& LiveSolve::context() {
   return *setup_.gl;
 }
 
-Solve& LiveSolve::usable() {
-  if (!solve_) throw Error(ErrorKind::kUsage, "there is no scene to solve yet", {}, "open one");
-  if (broken_) throw Error(ErrorKind::kUsage, "the solve has failed and cannot go on", {}, "restart it");
-  return *solve_;
+Lane& LiveSolve::present() {
+  if (!lane_) throw Error(ErrorKind::kUsage, "there is no scene to solve yet", {}, "open one");
+  return *lane_;
 }
 
-// The new solve takes the old one's place only when it stands and has its first snapshot.
-void LiveSolve::begin(Scene scene, const SolveOptions& options, double load_seconds) {
+std::optional<std::string> LiveSolve::rivalMode() const {
+  return rival_ ? std::optional(rival_->facts().options.mode) : std::nullopt;
+}
+
+std::unique_ptr<Lane> LiveSolve::makeLane(Scene scene, const SolveOptions& own, const SolveOptions& asked,
+                                          double load_seconds) {
+  auto solve = std::make_unique<Solve>(
+      std::move(scene), own, [this]() -> gl::Context& { return context(); }, setup_.given_up);
+  setup_.given_up.check();
+  return std::make_unique<Lane>(std::move(solve), asked, load_seconds,
+                                [this](Error problem) { note(std::move(problem)); });
+}
+
+// What is new takes the old one's place only when it stands and has its first snapshots.
+void LiveSolve::begin(const Scene& scene, const SolveOptions& options, double load_seconds,
+                      const std::optional<std::string>& rival_mode) {
   setup_.given_up.check();
   announce("meshing " + scene.path.filename().string());
-  auto fresh = std::make_unique<Solve>(
-      std::move(scene), options, [this]() -> gl::Context& { return context(); }, setup_.given_up);
-  setup_.given_up.check();
-  const double began = wallSeconds();
-  auto first = std::make_shared<const Snapshot>(fresh->snapshot());
-  const double ended = wallSeconds();
-  facts_ = factsOf(*fresh, load_seconds);
-  solve_ = std::move(fresh);
-  snapshot_ = std::move(first);
-  history_.reset();
-  pace_.made(began, ended);
-  broken_.reset();
-  failure_noted_ = paused_ = stale_ = estimates_stale_ = false;
-  estimate_seconds_ = 0;
-  no_more_places_ = complete_bounces_ = no_more_bounces_ = false;
+  SolveOptions own = options;
+  if (rival_mode) own.kept_bytes /= 2;  // both together keep to what was allowed
+  std::unique_ptr<Lane> fresh = makeLane(scene, own, options, load_seconds), rival;
+  if (rival_mode) {
+    SolveOptions asked = options;
+    own.mode = asked.mode = *rival_mode;
+    own.mesh = fresh->mesh();
+    rival = makeLane(scene, own, asked, load_seconds);
+    fresh->rest();
+    rival->rest();
+  }
+  lane_ = std::move(fresh);
+  rival_ = std::move(rival);
+  paused_ = false;
   steps_left_ = 0;
   ++epoch_;
 }
 
 void LiveSolve::announce(const std::string& task) {
-  if (solve_) solve_->rest();
+  forEachLane([](Lane& lane) { lane.rest(); });
   task_ = task;
   publish();
 }
 
 // What follows from a phase, once it is known.
 void LiveSolve::settle() {
-  if (!solve_ || running()) return;
-  solve_->rest();
-  if (phase() != SessionPhase::kPaused) steps_left_ = 0;
-  if (!broken_ && !failure_noted_ && solve_->state() == SolveState::kFailed) {
-    failure_noted_ = true;
-    note(*solve_->failure());
-  }
+  const bool going = running();
+  forEachLane([&](Lane& lane) {
+    if (!going || !lane.running()) lane.rest();
+    if (!lane.running()) lane.noteFailure();
+  });
+  if (!going && phase() != SessionPhase::kPaused) steps_left_ = 0;
 }
 
 void LiveSolve::note(Error problem) {
@@ -282,56 +211,22 @@ void LiveSolve::note(Error problem) {
   problem_ = std::move(problem);
 }
 
-void LiveSolve::noteException() { note(presentError()); }
-
-bool LiveSolve::wantsSnapshot() const {
-  if (!solve_ || broken_ || !stale_ || !task_.empty()) return false;
-  if (!std::isfinite(solve_->measures().unshot_fraction)) return false;  // the last good one stays
-  return !running() || pace_.due(wallSeconds(), *setup_.interval);
-}
-
-void LiveSolve::makeSnapshot() {
-  const double began = wallSeconds();
-  try {
-    snapshot_ = std::make_shared<const Snapshot>(solve_->snapshot());
-    stale_ = false;
-  } catch (...) {
-    noteException();
-  }
-  pace_.made(began, wallSeconds());
-}
-
 void LiveSolve::publish() {
-  if (wantsSnapshot()) makeSnapshot();
-  if (solve_ && (!history_ || history_->size() != solve_->history().size()))
-    history_ = std::make_shared<const std::vector<HistoryEntry>>(solve_->history());
+  const bool going = running();
   auto state = std::make_shared<SessionState>();
-  ++version_;
-  fill(*state);
+  if (task_.empty())
+    forEachLane([&](Lane& lane) { lane.refresh(!going || !lane.running(), *setup_.interval); });
+  const bool rests = !going && task_.empty();
+  if (lane_) static_cast<LaneState&>(*state) = lane_->state(rests);
+  if (rival_) state->rival = rival_->state(rests);
+  state->version = ++version_;
+  state->epoch = epoch_;
+  state->commands = commands_;
+  state->phase = phase();
+  state->task = task_;
+  state->problems = problems_;
+  state->problem = problem_;
   setup_.publish(std::move(state));
-}
-
-void LiveSolve::fill(SessionState& state) const {
-  state.version = version_;
-  state.epoch = epoch_;
-  state.commands = commands_;
-  state.phase = phase();
-  state.task = task_;
-  state.facts = facts_;
-  state.snapshot = snapshot_;
-  state.history = history_;
-  state.problems = problems_;
-  state.problem = problem_;
-  if (!solve_) return;
-  state.measures = solve_->measures();
-  state.progress = solve_->progress();
-  state.kept_bytes = solve_->keptBytes();
-  state.drawn = solve_->drawn();
-  state.estimates = solve_->estimates();
-  state.radius_lower = solve_->bounds().spectralRadiusLower();
-  state.radius_upper = solve_->bounds().spectralRadiusUpper();
-  state.bounces_under_way = !broken_ && hasBounceWork();
-  state.stopped_by = broken_.value_or(solve_->stoppedBy());
 }
 
 }  // namespace unshot

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "session/publish_pace.h"
+#include "session/lane.h"
 #include "session/session.h"
 
 namespace unshot {
@@ -38,11 +38,15 @@ struct SetError {
 };
 struct CompleteBounces {};
 struct ShootAgain {};
+struct Race {
+  std::string mode;
+};
+struct EndRace {};
 }  // namespace command
 
-using Command =
-    std::variant<command::Open, command::Restart, command::Pause, command::Resume, command::Step,
-                 command::SetMode, command::SetError, command::CompleteBounces, command::ShootAgain>;
+using Command = std::variant<command::Open, command::Restart, command::Pause, command::Resume, command::Step,
+                             command::SetMode, command::SetError, command::CompleteBounces,
+                             command::ShootAgain, command::Race, command::EndRace>;
 
 /// Whether loading for `command` is in vain, since `later` loads another scene or the same one again.
 bool isSuperseded(const Command& command, const Command& later);
@@ -68,7 +72,7 @@ class LiveSolve {
   void carryOut(const Command& command);
   /// Whether step() has something to do.
   bool running() const { return phase() == SessionPhase::kRunning; }
-  /// One step of the solve; publishes where due.
+  /// One step of the solve, or in a race of the one that has had less time; publishes where due.
   void step();
   /// Whether spareWork() has something to do while nothing else has.
   bool hasSpareWork() const;
@@ -85,45 +89,37 @@ class LiveSolve {
   void perform(const command::SetError& c);
   void perform(const command::CompleteBounces&);
   void perform(const command::ShootAgain&);
+  void perform(const command::Race& c);
+  void perform(const command::EndRace&);
 
   SessionPhase phase() const;
   gl::Context& context();
-  Solve& usable();
-  void begin(Scene scene, const SolveOptions& options, double load_seconds);
+  Lane& present();
+  std::optional<std::string> rivalMode() const;
+  std::unique_ptr<Lane> makeLane(Scene scene, const SolveOptions& own, const SolveOptions& asked,
+                                 double load_seconds);
+  void begin(const Scene& scene, const SolveOptions& options, double load_seconds,
+             const std::optional<std::string>& rival_mode);
+  void takeSteps();
   void announce(const std::string& task);
   void settle();
-  bool hasLight() const;
-  bool hasBounceWork() const;
-  void workOutBounces();
-  void estimateInPassing();
-  void estimateFrom(std::size_t more_places);
   void note(Error problem);
-  void noteException();
-  bool wantsSnapshot() const;
-  void makeSnapshot();
   void publish();
-  void fill(SessionState& state) const;
+  template <class F>
+  void forEachLane(F&& f) const {
+    for (Lane* lane : {lane_.get(), rival_.get()}) {
+      if (lane) f(*lane);
+    }
+  }
 
   LiveSolveSetup setup_;
-  std::unique_ptr<Solve> solve_;
-  std::optional<std::string>
-      broken_;                  // what a step threw: the solve takes no more and gives no more snapshots
-  bool failure_noted_ = false;  // numerical trouble is told once
+  std::unique_ptr<Lane> lane_, rival_;  // rival_: in a race
   bool paused_ = false;
   std::uint64_t steps_left_ = 0;  // before a pause; 0: no pause is due
   std::string task_;              // not empty while loading
-  PublishPace pace_;
-  bool stale_ = false;                                       // the solve has gone on since the snapshot
-  bool estimates_stale_ = false;                             // and since the estimates
-  double estimate_seconds_ = 0;                              // spent on them while running
-  bool no_more_places_ = false;                              // the scene has none, or estimating failed
-  bool complete_bounces_ = false, no_more_bounces_ = false;  // asked for; working them out failed
 
   std::uint64_t version_ = 0, epoch_ = 0, commands_ = 0, problems_ = 0;
   std::optional<Error> problem_;
-  std::shared_ptr<const SolveFacts> facts_;
-  std::shared_ptr<const Snapshot> snapshot_;
-  std::shared_ptr<const std::vector<HistoryEntry>> history_;
 };
 
 }  // namespace unshot

@@ -44,8 +44,10 @@ std::vector<PlanDecision> makePlan(const Scene& scene, const Mesh& mesh, const s
 Preparation prepare(const Scene& scene, const SolveOptions& options, const CancelToken& cancel) {
   Preparation out;
   const double mesh_began = wallSeconds();
-  out.mesh = std::make_shared<const Mesh>(
-      buildMesh(scene, {options.elements, options.element_size, options.emit_front_only}, cancel));
+  out.mesh = options.mesh
+                 ? options.mesh
+                 : std::make_shared<const Mesh>(buildMesh(
+                       scene, {options.elements, options.element_size, options.emit_front_only}, cancel));
   const double plan_began = wallSeconds();
   out.form_factors = options.form_factors;
   if (out.form_factors == "auto")

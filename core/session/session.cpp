@@ -22,6 +22,7 @@ struct Session::Impl {
   std::deque<Command> queue;
   std::optional<Command> current;  // what is being carried out
   std::uint64_t sent = 0;
+  int holds = 0;
   std::shared_ptr<const SessionState> latest = std::make_shared<const SessionState>();
 
   std::thread thread;  // last: it uses all of the above
@@ -48,8 +49,16 @@ struct Session::Impl {
     arrived.notify_all();
   }
 
+  void hold(int more) {
+    {
+      const std::lock_guard lock(mutex);
+      holds += more;
+    }
+    arrived.notify_all();
+  }
+
   void run();
-  std::optional<Command> next(bool wait);
+  std::optional<Command> next(bool idle);
   void publish(std::shared_ptr<const SessionState> state);
 };
 
@@ -72,10 +81,11 @@ void Session::Impl::run() {
   }
 }
 
-// The next command; none where there is none yet and `wait` is false, or where the session closes.
-std::optional<Command> Session::Impl::next(bool wait) {
+// The next command, waited for where the thread is idle or held; none where there is none yet, or where the
+// session closes.
+std::optional<Command> Session::Impl::next(bool idle) {
   std::unique_lock lock(mutex);
-  if (wait) arrived.wait(lock, [this] { return closing || !queue.empty(); });
+  arrived.wait(lock, [&] { return closing || !queue.empty() || (!idle && holds == 0); });
   if (closing || queue.empty()) return std::nullopt;
   current = std::move(queue.front());
   queue.pop_front();
@@ -97,6 +107,10 @@ Session::Session(SessionSetup setup) : impl_(std::make_unique<Impl>(std::move(se
 
 Session::~Session() = default;
 
+Session::Hold::Hold(Session& session) : session_(session) { session_.impl_->hold(1); }
+
+Session::Hold::~Hold() { session_.impl_->hold(-1); }
+
 void Session::open(std::filesystem::path scene, SolveOptions options) {
   impl_->send(command::Open{std::move(scene), std::move(options)});
 }
@@ -116,6 +130,10 @@ void Session::setMode(std::string key) { impl_->send(command::SetMode{std::move(
 void Session::setError(double error) { impl_->send(command::SetError{error}); }
 
 void Session::completeBounces() { impl_->send(command::CompleteBounces{}); }
+
+void Session::race(std::string mode) { impl_->send(command::Race{std::move(mode)}); }
+
+void Session::endRace() { impl_->send(command::EndRace{}); }
 
 std::uint64_t Session::sent() const {
   const std::lock_guard lock(impl_->mutex);

@@ -38,14 +38,9 @@ struct SolveFacts {
   double load_seconds = 0, mesh_seconds = 0;
 };
 
-/// One moment of the session. Everything it points to is immutable.
-struct SessionState {
-  std::uint64_t version = 0;   ///< one more at each publication
-  std::uint64_t epoch = 0;     ///< one more where shots count from 0 again; 0: none yet
-  std::uint64_t commands = 0;  ///< how many of the commands sent are carried out
-  SessionPhase phase = SessionPhase::kEmpty;
-  std::string task;                         ///< while loading: what is being done, such as "reading room.obj"
-  std::shared_ptr<const SolveFacts> facts;  ///< null before the first scene
+/// One solve of the session at one moment. Everything it points to is immutable.
+struct LaneState {
+  std::shared_ptr<const SolveFacts> facts;   ///< null before the first scene
   std::shared_ptr<const Snapshot> snapshot;  ///< the last good one; null before the first scene
   std::shared_ptr<const std::vector<HistoryEntry>> history;  ///< of this solve, up to this moment
   Measures measures;  ///< as of this moment; while running the snapshot may be older (Snapshot::measures)
@@ -53,12 +48,26 @@ struct SessionState {
   /// Bracket of the spectral radius of M, per channel; upper infinite where it is not known.
   glm::dvec3 radius_lower{0.0}, radius_upper{kNoBound};
   bool bounces_under_way = false;  ///< light by bounces is being worked out, or will be once the solve rests
-  double progress = 0;             ///< Solve::progress
-  std::size_t kept_bytes = 0;      ///< memory held by kept columns
-  std::uint64_t drawn = 0;         ///< hemicubes drawn
-  std::string stopped_by;          ///< Solve::stoppedBy, or what a step threw
+  bool spare_work = false;     ///< the solve rests, and its estimates or light by bounces still get better
+  double progress = 0;         ///< Solve::progress
+  std::size_t kept_bytes = 0;  ///< memory held by kept columns
+  std::uint64_t drawn = 0;     ///< hemicubes drawn
+  std::string stopped_by;      ///< Solve::stoppedBy, or what a step threw
+};
+
+/// One moment of the session, with the state of its solve.
+struct SessionState : LaneState {
+  std::uint64_t version = 0;                  ///< one more at each publication
+  std::uint64_t epoch = 0;                    ///< one more where shots count from 0 again; 0: none yet
+  std::uint64_t commands = 0;                 ///< how many of the commands sent are carried out
+  SessionPhase phase = SessionPhase::kEmpty;  ///< in a race kRunning or kPaused until both have ended
+  std::string task;                ///< while loading: what is being done, such as "reading room.obj"
+  std::optional<LaneState> rival;  ///< in a race: the other solve
   std::uint64_t problems = 0;      ///< how many commands or solves have failed so far
   std::optional<Error> problem;    ///< the last failure
+
+  /// Whether there are more news to wait for while the session rests.
+  bool spareWork() const { return spare_work || (rival && rival->spare_work); }
 };
 
 struct SessionSetup {
@@ -79,6 +88,19 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
+  /// While one lives no step is taken, though commands are carried out: what is sent meanwhile happens
+  /// without a shot in between. A step under way ends.
+  class Hold {
+   public:
+    explicit Hold(Session& session);
+    ~Hold();
+    Hold(const Hold&) = delete;
+    Hold& operator=(const Hold&) = delete;
+
+   private:
+    Session& session_;
+  };
+
   // Commands, carried out in order between two steps. What fails leaves the session as it was and is
   // published as `problem`. A command that has nothing to do in the present phase (pause without a scene,
   // step of a converged solve) does nothing.
@@ -94,7 +116,8 @@ class Session {
   void shootAgain();
   void pause();
   void resume();
-  /// `shots` more steps, added to those still due, then a pause; 0 where none are due: a pause.
+  /// `shots` more steps (in a race: of each solve), added to those still due, then a pause; 0 where none are
+  /// due: a pause.
   void step(std::uint64_t shots);
   /// Another iteration mode; what was shot and received stays.
   void setMode(std::string key);
@@ -104,6 +127,13 @@ class Session {
   /// While the present solve rests: computes the form factors that light by bounces still waits for
   /// (Snapshot::bounce_wait). Where none are missing it needs no asking.
   void completeBounces();
+
+  /// The present solve from nothing against another one of the same scene in the mode `key`: in turns, each
+  /// always as long as the other [s of its own clock], with half of the memory for columns each. It goes on
+  /// through restart(), shootAgain() and setMode() (which then begins anew) and ends with open().
+  void race(std::string mode);
+  /// Leaves the other solve; the first goes on.
+  void endRace();
 
   /// How many commands were sent so far; they are carried out when latest()->commands says the same.
   std::uint64_t sent() const;

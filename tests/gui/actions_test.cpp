@@ -65,6 +65,7 @@ const std::map<std::string_view, std::string>& validArguments() {
       {"pause", "on"},
       {"step", "2"},
       {"mode", "jacobi"},
+      {"race", "southwell"},
       {"form-factors", "hemicube"},
       {"elements", "300"},
       {"hemicube", "32"},

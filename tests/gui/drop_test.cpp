@@ -76,10 +76,10 @@ TEST_F(Drop, OfWhatIsNoSceneIsSaidAndChangesNothing) {
       {files_ / "gone.obj", "there is no such file"},
       {files_.path().string(), "this is a folder"}};
   const std::vector<float> calm = upperHalf();
-  for (const auto& [file, message] : refused) {
-    SCOPED_TRACE(message);
+  for (const auto& [file, said] : refused) {
+    SCOPED_TRACE(said);
     drop(file);
-    EXPECT_TRUE(eventually([&] { return run_.errors().find(message) != std::string::npos; }))
+    EXPECT_TRUE(eventually([&, what = said] { return run_.errors().find(what) != std::string::npos; }))
         << run_.errors();
     EXPECT_TRUE(upperHalf() != calm) << "no message in the window";
     EXPECT_TRUE(run_.scene() == scene) << "another picture of the scene";

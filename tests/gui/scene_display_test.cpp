@@ -50,7 +50,7 @@ class SceneDisplays : public testing::Test {
     fn.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
     fn.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.id(), 0);
     fn.Clear(GL_COLOR_BUFFER_BIT);
-    display.copyTo(0, 0);
+    display.copyTo(0, kWidth);
     std::vector<std::uint8_t> out(4 * std::size_t{kWidth} * kHeight);
     fn.ReadPixels(0, 0, kWidth, kHeight, GL_RGBA, GL_UNSIGNED_BYTE, out.data());
     gl::checkErrors(fn, "a picture in slices");

@@ -89,7 +89,7 @@ TEST(WindowScript, EveryDisplayModeShowsAPictureOfItsOwn) {
 class PanelChoices : public testing::Test {
  protected:
   static constexpr int kWidth = 900, kPanel = 304, kLeft = kWidth - kPanel;
-  static constexpr int kScene = 21, kMode = 125, kMethod = 151, kShow = 551;
+  static constexpr int kScene = 21, kMode = 125, kMethod = 177, kShow = 577;
 
   void click(int x, int y) {
     xdotool("mousemove --window " + run_.window() + " " + std::to_string(x) + " " + std::to_string(y));

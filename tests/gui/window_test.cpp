@@ -134,13 +134,17 @@ TEST_F(Window, ScreenshotsAreNumberedAndHaveTheWindowsSize) {
   EXPECT_EQ(with.height, 480);
   EXPECT_LT(without.width, 640);
   EXPECT_EQ(without.height, 480);
-  for (const auto& [width, height] : {std::pair(900, 620), std::pair(420, 300)}) {
-    xdotool("windowsize " + run.window() + " " + std::to_string(width) + " " + std::to_string(height));
+  struct Size {
+    int width, height;
+  };
+  for (const Size size : {Size{900, 620}, Size{420, 300}}) {
+    xdotool("windowsize " + run.window() + " " + std::to_string(size.width) + " " +
+            std::to_string(size.height));
     EXPECT_TRUE(eventually([&] {
       const ImageF image = readImage(run.folder().path() / run.screenshot("F12"));
-      return (image.width == width && image.height == height) || HasFailure();
-    })) << width
-        << "x" << height;
+      return (image.width == size.width && image.height == size.height) || HasFailure();
+    })) << size.width
+        << "x" << size.height;
   }
   endsOn(run, "ctrl+q");
 }

@@ -151,6 +151,9 @@ inline void checkPublications(const std::vector<SessionWatch::Seen>& seen) {
     if (at_rest && s.phase != SessionPhase::kFailed) {
       ASSERT_EQ(s.snapshot->measures.shots, s.measures.shots);
     }
+    if (s.rival) {
+      ASSERT_EQ(s.rival->snapshot->mesh, s.snapshot->mesh);
+    }
     ASSERT_FALSE(s.history->empty());
     ASSERT_LE(s.history->back().measures.shots, s.measures.shots);
   }

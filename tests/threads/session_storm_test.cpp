@@ -17,7 +17,7 @@ using namespace testing_support;
 const char* const kScenes[] = {"furnace.obj", "two_patches.obj", "cornell_box.obj", "missing.obj"};
 
 void sendSomething(Session& session, Dice& dice) {
-  const std::uint32_t kind = dice.below(24);
+  const std::uint32_t kind = dice.below(26);
   if (kind < 2) {
     session.open(asset(kScenes[dice.below(4)]), closedForm(20 + dice.below(60), dice.between(0, 0.1)));
   } else if (kind < 3) {
@@ -37,6 +37,10 @@ void sendSomething(Session& session, Dice& dice) {
     session.completeBounces();
   } else if (kind < 23) {
     session.shootAgain();
+  } else if (kind < 24) {
+    session.race(std::string(iterationModes()[dice.below(2)].info.key));
+  } else if (kind < 25) {
+    session.endRace();
   } else {
     session.setPublishInterval(dice.between(0, 0.1));
   }

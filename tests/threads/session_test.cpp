@@ -95,6 +95,25 @@ TEST(Session, APauseAfterOpenComesBeforeTheFirstShot) {
   EXPECT_EQ(watch.carriedOut()->phase, SessionPhase::kConverged);
 }
 
+// However slow the sender is: commands sent while the session is held fall between the same two steps.
+TEST(Session, AHoldLetsNoShotFallBetweenCommands) {
+  SessionWatch watch;
+  {
+    const Session::Hold hold(*watch.operator->());
+    watch->open(asset("cornell_box.obj"), endless());
+    const StatePointer open = watch.carriedOut();
+    EXPECT_EQ(open->phase, SessionPhase::kRunning);
+    for (int k = 0; k < 20; ++k) {  // after each of them a session that is not held takes a step
+      watch->setError(1e-300);
+      EXPECT_EQ(watch.carriedOut()->measures.shots, 0u);
+    }
+    watch->pause();
+    watch.carriedOut();
+  }
+  watch->step(3);
+  EXPECT_EQ(watch.rested()->measures.shots, 3u);
+}
+
 TEST(Session, StepShootsAsManyAsAskedForAndPauses) {
   SessionWatch watch;
   watch.openPaused(asset("cornell_box.obj"), endless());

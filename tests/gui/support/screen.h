@@ -60,7 +60,7 @@ class Screen {
     ::close(ends[1]);
     const std::string number = readLine(ends[0]);
     ::close(ends[0]);
-    if (number.empty()) throw std::runtime_error("Xvfb does not start; it is in app/packages");
+    if (number.empty()) throw std::runtime_error("Xvfb does not start; it is in tests/packages");
     ::setenv("DISPLAY", (":" + number).c_str(), 1);
   }
   ~Screen() {

@@ -1,0 +1,89 @@
+#include "viewer/scene_area.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <utility>
+
+#include "base/clock.h"
+
+namespace unshot {
+namespace {
+
+constexpr int kGap = 4;  // between the pictures [px]
+
+// In a picture that is higher than wide the angle of view is that of its width.
+void widenAngle(SceneDisplay::Wanted& picture) {
+  if (picture.width >= picture.height || picture.width <= 0) return;
+  const double up = std::tan(glm::radians(picture.camera.fov_deg) / 2);
+  const double wider = std::atan(up * picture.height / picture.width);
+  picture.camera.fov_deg = std::min(glm::degrees(2 * wider), 170.0);
+}
+
+}  // namespace
+
+SceneSplit splitScene(int width, bool race) {
+  if (!race) return {width, width, 0};
+  const int each = std::max((width - kGap) / 2, 0);
+  return {each, width - each, each};
+}
+
+void SceneArea::setSnapshots(std::shared_ptr<const Snapshot> first, std::shared_ptr<const Snapshot> rival) {
+  first_.setSnapshot(std::move(first));
+  if (second_.has_value() != (rival != nullptr)) {
+    changes_ += 1 + (second_ ? second_->version() : 0);
+    second_.reset();
+    if (rival) second_.emplace(context_);
+  }
+  if (second_) second_->setSnapshot(std::move(rival));
+}
+
+bool SceneArea::has(const std::shared_ptr<const Snapshot>& first,
+                    const std::shared_ptr<const Snapshot>& rival) const {
+  return first_.snapshot() == first && (second_ ? second_->snapshot() : nullptr) == rival;
+}
+
+SceneDisplay::Wanted SceneArea::firstOf(const Wanted& wanted) const {
+  Wanted out = wanted;
+  out.width = splitScene(wanted.width, second_.has_value()).left;
+  if (second_) widenAngle(out);
+  return out;
+}
+
+SceneDisplay::Wanted SceneArea::secondOf(const Wanted& wanted) const {
+  Wanted out = wanted;
+  out.width = splitScene(wanted.width, true).right;
+  widenAngle(out);
+  out.settings.view.automatic_exposure = first_.exposure();
+  return out;
+}
+
+bool SceneArea::outdated(const Wanted& wanted) const {
+  return first_.outdated(firstOf(wanted)) || (second_ && second_->outdated(secondOf(wanted)));
+}
+
+bool SceneArea::draw(const Wanted& wanted, double seconds, double deadline) {
+  const bool drew = first_.draw(firstOf(wanted), seconds, deadline);
+  if (!second_ || first_.drawing() || (drew && wallSeconds() >= deadline)) return drew;
+  return second_->draw(secondOf(wanted), seconds, deadline) || drew;
+}
+
+void SceneArea::sharpen(int samples, double deadline) {
+  if (!first_.sharp()) {
+    first_.sharpen(samples, deadline);
+  } else if (second_) {
+    second_->sharpen(samples, deadline);
+  }
+}
+
+std::uint64_t SceneArea::version() const {
+  return changes_ + first_.version() + (second_ ? second_->version() : 0);
+}
+
+void SceneArea::copyTo(int width) const {
+  const SceneSplit split = splitScene(width, second_.has_value());
+  first_.copyTo(0, split.left);
+  if (second_) second_->copyTo(split.right_at, split.right);
+}
+
+}  // namespace unshot

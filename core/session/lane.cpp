@@ -1,0 +1,223 @@
+#include "session/lane.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include "base/clock.h"
+
+namespace unshot {
+namespace {
+
+// Errors are estimated from so many places while the solve runs and when it rests.
+constexpr std::size_t kPlacesInPassing = 128, kPlacesAtRest = 512, kPlacesAtOnce = 64;
+constexpr double kEstimateShare = 0.05;
+// An estimate passes over the whole mesh: on a larger one it would be felt as a pause.
+constexpr std::size_t kMostElementsInPassing = 200'000;
+
+}  // namespace
+
+Error presentError() {
+  try {
+    throw;
+  } catch (const Error& error) {
+    return error;
+  } catch (const std::bad_alloc&) {
+    return Error(ErrorKind::kEnvironment, "there is not enough memory", {}, "fewer elements");
+  } catch (const std::exception& error) {
+    return Error(ErrorKind::kInternal, error.what());
+  } catch (...) {
+    return Error(ErrorKind::kInternal, "an unknown exception");
+  }
+}
+
+Lane::Lane(std::unique_ptr<Solve> solve, SolveOptions asked, double load_seconds,
+           std::function<void(Error)> note)
+    : solve_(std::move(solve)), note_(std::move(note)) {
+  const double began = wallSeconds();
+  snapshot_ = std::make_shared<const Snapshot>(solve_->snapshot());
+  pace_.made(began, wallSeconds());
+  learnFacts(std::move(asked), load_seconds);
+}
+
+void Lane::learnFacts(SolveOptions asked, double load_seconds) {
+  auto facts = std::make_shared<SolveFacts>();
+  const Scene& scene = solve_->scene();
+  const Mesh& mesh = solve_->mesh();
+  facts->scene_path = scene.path;
+  facts->scene_name = scene.name;
+  facts->options = std::move(asked);
+  facts->options.mode = solve_->options().mode;
+  facts->options.error = solve_->options().error;
+  facts->mode = solve_->modeKey();
+  facts->form_factors = solve_->formFactorsKey();
+  facts->plan = solve_->plan();
+  facts->diagnostics = solve_->diagnostics();
+  facts->triangles = scene.triangle_count;
+  facts->surfaces = mesh.surfaces.size();
+  facts->patches = mesh.patch_count;
+  facts->elements = mesh.element_count;
+  facts->vertices = mesh.vertices.size();
+  facts->load_seconds = load_seconds;
+  facts->mesh_seconds = solve_->seconds().mesh;
+  facts_ = std::move(facts);
+}
+
+SessionPhase Lane::phase(bool paused) const {
+  if (broken()) return SessionPhase::kFailed;
+  switch (solve_->state()) {
+    case SolveState::kRunning:
+      return paused ? SessionPhase::kPaused : SessionPhase::kRunning;
+    case SolveState::kConverged:
+      return SessionPhase::kConverged;
+    case SolveState::kFailed:
+      return SessionPhase::kFailed;
+    default:
+      return SessionPhase::kStopped;
+  }
+}
+
+Solve& Lane::usable() {
+  if (broken()) throw Error(ErrorKind::kUsage, "the solve has failed and cannot go on", {}, "restart it");
+  return *solve_;
+}
+
+void Lane::setMode(const std::string& key) {
+  usable().setMode(key);
+  failure_noted_ = false;
+  learnFacts(facts_->options, facts_->load_seconds);
+}
+
+void Lane::setError(double error) {
+  usable().setError(error);
+  learnFacts(facts_->options, facts_->load_seconds);
+}
+
+void Lane::again() {
+  usable().again();
+  history_.reset();
+  failure_noted_ = false;
+  stale_ = estimates_stale_ = true;
+  pace_ = {};
+}
+
+void Lane::completeBounces() {
+  usable();
+  complete_bounces_ = true;
+}
+
+void Lane::step() {
+  try {
+    solve_->step();
+    stale_ = estimates_stale_ = true;
+    estimateInPassing();
+  } catch (...) {
+    const Error error = presentError();
+    broken_ = error.what();
+    note_(error);
+  }
+}
+
+void Lane::noteFailure() {
+  if (broken() || failure_noted_ || solve_->state() != SolveState::kFailed) return;
+  failure_noted_ = true;
+  note_(*solve_->failure());
+}
+
+bool Lane::hasSpareWork() const {
+  if (broken() || !hasLight()) return false;
+  if (hasBounceWork()) return true;
+  return !no_more_places_ && (estimates_stale_ || solve_->places() < kPlacesAtRest);
+}
+
+// Nothing shot yet says nothing.
+bool Lane::hasLight() const {
+  return solve_->measures().shots > 0 && std::isfinite(solve_->measures().unshot_fraction);
+}
+
+bool Lane::hasBounceWork() const {
+  return hasLight() && !no_more_bounces_ && solve_->hasBouncesToWorkOut(complete_bounces_);
+}
+
+bool Lane::spareWork(double interval) {
+  if (hasBounceWork()) return workOutBounces(interval);
+  estimateFrom(std::min(kPlacesAtOnce, kPlacesAtRest - std::min(kPlacesAtRest, solve_->places())));
+  return true;
+}
+
+bool Lane::workOutBounces(double interval) {
+  try {
+    if (!solve_->workOutBounces(complete_bounces_)) return false;
+  } catch (...) {
+    noteException();
+    no_more_bounces_ = true;
+  }
+  stale_ = true;
+  return !hasBounceWork() || due(interval);
+}
+
+// While it runs: as often as a small share of the solve's time allows.
+void Lane::estimateInPassing() {
+  if (!running() || facts_->elements > kMostElementsInPassing) return;
+  if (estimate_seconds_ > kEstimateShare * solve_->measures().seconds) return;
+  estimateFrom(solve_->places() < kPlacesInPassing ? kPlacesInPassing / 8 : 0);
+}
+
+void Lane::estimateFrom(std::size_t more_places) {
+  const double began = wallSeconds();
+  const std::size_t before = solve_->places();
+  try {
+    solve_->estimate(more_places);
+    no_more_places_ = more_places > 0 && solve_->places() == before;
+  } catch (...) {
+    noteException();
+    no_more_places_ = true;
+  }
+  estimate_seconds_ += wallSeconds() - began;
+  estimates_stale_ = false;
+  stale_ = true;  // the snapshot shows where the mesh is worst
+}
+
+bool Lane::due(double interval) const { return pace_.due(wallSeconds(), interval); }
+
+bool Lane::wantsSnapshot(bool resting, double interval) const {
+  if (broken() || !stale_) return false;
+  if (!std::isfinite(solve_->measures().unshot_fraction)) return false;  // the last good one stays
+  return resting || due(interval);
+}
+
+void Lane::refresh(bool resting, double interval) {
+  if (wantsSnapshot(resting, interval)) {
+    const double began = wallSeconds();
+    try {
+      snapshot_ = std::make_shared<const Snapshot>(solve_->snapshot());
+      stale_ = false;
+    } catch (...) {
+      noteException();
+    }
+    pace_.made(began, wallSeconds());
+  }
+  if (!history_ || history_->size() != solve_->history().size())
+    history_ = std::make_shared<const std::vector<HistoryEntry>>(solve_->history());
+}
+
+LaneState Lane::state(bool resting) const {
+  LaneState state;
+  state.facts = facts_;
+  state.snapshot = snapshot_;
+  state.history = history_;
+  state.measures = solve_->measures();
+  state.estimates = solve_->estimates();
+  state.radius_lower = solve_->bounds().spectralRadiusLower();
+  state.radius_upper = solve_->bounds().spectralRadiusUpper();
+  state.bounces_under_way = !broken() && hasBounceWork();
+  state.spare_work = resting && hasSpareWork();
+  state.progress = solve_->progress();
+  state.kept_bytes = solve_->keptBytes();
+  state.drawn = solve_->drawn();
+  state.stopped_by = broken_.value_or(solve_->stoppedBy());
+  return state;
+}
+
+}  // namespace unshot

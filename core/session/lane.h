@@ -1,0 +1,85 @@
+// One solve of a live session and what of it is shown: a session has one, a race two.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "session/publish_pace.h"
+#include "session/session.h"
+
+namespace unshot {
+
+/// The exception in flight, worded for the person at the keyboard.
+Error presentError();
+
+/// All calls on the solver thread.
+class Lane {
+ public:
+  /// Makes the first snapshot. `asked` are the options to show, `note` takes what fails later.
+  Lane(std::unique_ptr<Solve> solve, SolveOptions asked, double load_seconds,
+       std::function<void(Error)> note);
+
+  const Solve& solve() const { return *solve_; }
+  const SolveFacts& facts() const { return *facts_; }
+  const std::shared_ptr<const Mesh>& mesh() const { return snapshot_->mesh; }
+  /// What a step threw: the solve takes no more and gives no more snapshots.
+  bool broken() const { return broken_.has_value(); }
+  /// Whether step() has something to do.
+  bool running() const { return !broken() && solve_->state() == SolveState::kRunning; }
+  SessionPhase phase(bool paused) const;
+
+  // These throw an Error where the solve is broken, or refuses.
+  void setMode(const std::string& key);
+  void setError(double error);
+  void again();
+  void completeBounces();
+
+  /// One step, after which estimates may be made too.
+  void step();
+  /// Stops the clocks of the solve until its next step.
+  void rest() { solve_->rest(); }
+  /// Tells of a solve that has failed, once.
+  void noteFailure();
+
+  /// Whether estimates or light by bounces get better while nothing is shot.
+  bool hasSpareWork() const;
+  /// Light by bounces, then errors estimated from more places. Returns whether that is to be shown now.
+  bool spareWork(double interval);
+
+  /// Whether a snapshot of a lane under way is due.
+  bool due(double interval) const;
+  /// Makes what is shown anew where it is stale: a snapshot of a lane at rest, or where one is due.
+  void refresh(bool resting, double interval);
+  LaneState state(bool resting) const;
+
+ private:
+  Solve& usable();
+  void learnFacts(SolveOptions asked, double load_seconds);
+  void noteException() { note_(presentError()); }
+  bool hasLight() const;
+  bool hasBounceWork() const;
+  bool workOutBounces(double interval);
+  void estimateInPassing();
+  void estimateFrom(std::size_t more_places);
+  bool wantsSnapshot(bool resting, double interval) const;
+
+  std::unique_ptr<Solve> solve_;
+  std::function<void(Error)> note_;
+  std::optional<std::string> broken_;
+  bool failure_noted_ = false;  // numerical trouble is told once
+  PublishPace pace_;
+  bool stale_ = false;                                       // the solve has gone on since the snapshot
+  bool estimates_stale_ = false;                             // and since the estimates
+  double estimate_seconds_ = 0;                              // spent on them while running
+  bool no_more_places_ = false;                              // the scene has none, or estimating failed
+  bool complete_bounces_ = false, no_more_bounces_ = false;  // asked for; working them out failed
+
+  std::shared_ptr<const SolveFacts> facts_;
+  std::shared_ptr<const Snapshot> snapshot_;
+  std::shared_ptr<const std::vector<HistoryEntry>> history_;
+};
+
+}  // namespace unshot
