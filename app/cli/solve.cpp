@@ -164,7 +164,9 @@ int solveScene(const SolveRequest& request, const InterruptFlag& interrupted) {
   progress.finish();
   interrupted.token().check();
   printFrom(said, solve.diagnostics());
+  const std::size_t said_before_steps = solve.diagnostics().size();
   runSteps(solve, interrupted, progress);
+  printFrom(said_before_steps, solve.diagnostics());
   return finishSolve(request, solve, context, probes, load_seconds, interrupted);
 }
 

@@ -42,6 +42,11 @@ std::string estimatesText(const ErrorEstimates& estimates) {
          estimateText(estimates.discretisation) + ", both " + estimateText(estimates.both);
 }
 
+std::string defectsText(const FormFactorDefects& defects) {
+  return "closure is off by " + percentText(defects.closure) + ", reciprocity by " +
+         percentText(defects.reciprocity) + " (RMS of " + countedText(defects.columns, "column") + ")";
+}
+
 std::string rendererText(const RunRecord& record) {
   if (!record.gl) return "none needed";
   return record.gl->provider + ", " + record.gl->renderer + (record.gl->hardware ? "" : " (software)");
@@ -70,6 +75,7 @@ void printSummary(std::ostream& out, const RunRecord& record, const SolveOptions
       {"unshot", percentText(record.measures.unshot_fraction)},
       {"solver error", boundText(record.measures.bounds)},
       {"other errors", estimatesText(record.estimates)},
+      {"form factors", defectsText(record.estimates.defects)},
       {"time", durationText(total) + " (load " + durationText(seconds.load) + ", mesh " +
                    durationText(seconds.mesh) + ", plan " + durationText(seconds.plan) + ", solve " +
                    durationText(seconds.solve) + "), CPU " + durationText(seconds.cpu_solve)},

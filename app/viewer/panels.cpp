@@ -286,6 +286,12 @@ void figuresSection(Viewer& viewer) {
          "Of M in B = E + M B, bracketed (largest channel): what a bounce leaves of the light in the long "
          "run");
   }
+  const FormFactorDefects& defects = state.estimates.defects;
+  if (defects.columns > 1) {
+    line("Closure, reciprocity", percentText(defects.closure) + ", " + percentText(defects.reciprocity),
+         "How far the form factors break two laws of exact ones (RMS): all that a patch sends arrives or "
+         "escapes; A F is the same both ways");
+  }
   const std::uint64_t drafts = state.measures.drafts + state.measures.refined;
   if (drafts > 0) {
     line("Drafts refined", countText(state.measures.refined) + " of " + countText(drafts),

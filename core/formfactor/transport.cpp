@@ -44,6 +44,11 @@ const Column& Transport::keep(std::uint32_t q, Column column) {
     kept_[q] = std::make_unique<Column>(std::move(column));
     return *kept_[q];
   }
+  if (missing_room_ == 0) {
+    const double each =
+        static_cast<double>(kept_bytes_ + column.bytes()) / static_cast<double>(kept_count_ + 1);
+    missing_room_ = static_cast<std::size_t>(each * static_cast<double>(patchCount()));
+  }
   passing_ = std::move(column);
   passing_patch_ = q;
   return passing_;

@@ -55,6 +55,8 @@ class Transport {
   std::uint64_t drawn() const { return method_->drawn(); }
   std::size_t keptBytes() const { return kept_bytes_; }
   std::size_t keptColumns() const { return kept_count_; }
+  /// Whether a column found no room: what all of them would take, from those that did [bytes]; 0 before that.
+  std::size_t missingRoom() const { return missing_room_; }
 
  private:
   Column compute(std::uint32_t q);
@@ -65,7 +67,7 @@ class Transport {
   Receivers receivers_;
   std::vector<double> patch_area_;
   std::size_t budget_;
-  std::size_t kept_bytes_ = 0, kept_count_ = 0;
+  std::size_t kept_bytes_ = 0, kept_count_ = 0, missing_room_ = 0;
   std::vector<std::unique_ptr<Column>> kept_;
   Column passing_;  // the last column that found no room
   std::uint32_t passing_patch_ = kNone;

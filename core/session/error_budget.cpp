@@ -117,6 +117,7 @@ const ErrorEstimates& ErrorBudget::estimate(std::size_t more_places) {
   if (!residuals_) residuals_.emplace(mesh_, transport_.receivers(), seed_);
   residuals_->add(more_places);
   estimates_ = residuals_->estimate(state_, matrix_);
+  estimates_.defects = matrix_.defects();
   return estimates_;
 }
 

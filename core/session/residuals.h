@@ -31,6 +31,7 @@ struct ErrorEstimates {
   ErrorEstimate form_factor;
   ErrorEstimate discretisation;  ///< what the mesh adds to the form factors: both^2 - form_factor^2
   ErrorEstimate both;
+  FormFactorDefects defects;
 };
 
 class Residuals {

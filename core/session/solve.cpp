@@ -61,7 +61,7 @@ struct Solve::Impl {
   std::optional<Error> failure;
   Measures measures;
   std::vector<HistoryEntry> history;
-  bool resting = false, mode_failed = false;
+  bool resting = false, mode_failed = false, room_noted = false;
   DraftRefinement drafts;
   double measured_wall = 0, measured_cpu = 0;  // when `measures` were taken
   SharedFields shared;
@@ -81,6 +81,7 @@ struct Solve::Impl {
   bool reached();
   void checkLimits();
   void checkStagnation();
+  void noteMissingRoom();
   void record();
   void refine();
   std::optional<std::size_t> iterate();
@@ -243,6 +244,23 @@ void Solve::Impl::checkStagnation() {
   }
 }
 
+// Once, when the first column finds no room.
+void Solve::Impl::noteMissingRoom() {
+  if (room_noted || transport->missingRoom() == 0) return;
+  room_noted = true;
+  const auto megabytes = [](std::size_t bytes) {
+    return std::to_string(static_cast<std::size_t>(std::ceil(static_cast<double>(bytes) / 1e6)));
+  };
+  diagnostics.push_back({Severity::kWarning,
+                         "form-factors-not-kept",
+                         "the form factors take about " + megabytes(transport->missingRoom()) +
+                             " MB and may take " + megabytes(options.kept_bytes) +
+                             " MB: those beyond are computed again whenever they are needed",
+                         {},
+                         "--keep " + megabytes(transport->missingRoom() * 11 / 10) +
+                             ", fewer --elements, or the mode kept-first"});
+}
+
 // A curve needs no more points than a plot has pixels: each is a hundredth further than the last.
 void Solve::Impl::record() {
   const auto steps = [](const Measures& m) { return m.shots + m.rows; };
@@ -300,6 +318,7 @@ void Solve::step() {
     s.stop(SolveState::kConverged,
            s.options.bounces && !s.state->onlyRoundingUnshot() ? "bounces" : "nothing unshot");
   if (s.progress_state == SolveState::kRunning) s.checkStagnation();
+  s.noteMissingRoom();
   s.record();
 }
 

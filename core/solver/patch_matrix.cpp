@@ -1,8 +1,14 @@
 #include "solver/patch_matrix.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace unshot {
+namespace {
+
+constexpr std::size_t kColumnsCompared = 256;
+
+}  // namespace
 
 PatchMatrix::PatchMatrix(const Receivers& receivers, std::span<const double> area, std::size_t budget)
     : receivers_(receivers),
@@ -11,6 +17,7 @@ PatchMatrix::PatchMatrix(const Receivers& receivers, std::span<const double> are
       columns_(area.size()),
       known_(area.size(), 0),
       reached_(area.size(), 0),
+      closure_(area.size(), 0.0),
       sum_(area.size(), 0.0) {}
 
 void PatchMatrix::set(std::uint32_t q, const Column& column) {
@@ -40,6 +47,7 @@ void PatchMatrix::set(std::uint32_t q, const Column& column) {
     sum_[p] = 0;
   }
   touched_.clear();
+  closure_[q] = column.defect;
   largest_sent_ = std::max(largest_sent_, sent);
   bytes_ += out.capacity() * sizeof(Entry);
   known_[q] = 1;
@@ -62,6 +70,38 @@ glm::dvec3 PatchMatrix::transposed(std::uint32_t q, std::span<const glm::dvec3> 
 
 void PatchMatrix::transposed(std::span<const glm::dvec3> x, std::span<glm::dvec3> out) const {
   for (std::uint32_t q = 0; q < columns_.size(); ++q) out[q] = transposed(q, x);
+}
+
+double PatchMatrix::exchange(std::uint32_t p, std::uint32_t q) const {
+  const std::vector<Entry>& column = columns_[q];
+  const auto at = std::lower_bound(column.begin(), column.end(), p,
+                                   [](const Entry& e, std::uint32_t patch) { return e.patch < patch; });
+  return at != column.end() && at->patch == p ? area_[p] * static_cast<double>(at->value) : 0.0;
+}
+
+FormFactorDefects PatchMatrix::defects() const {
+  FormFactorDefects out;
+  out.columns = known_count_;
+  double lost = 0, area = 0, difference = 0, size = 0;
+  const std::size_t stride = std::max<std::size_t>(known_count_ / kColumnsCompared, 1);
+  std::size_t number = 0;
+  for (std::uint32_t q = 0; q < columns_.size(); ++q) {
+    if (!known_[q]) continue;
+    lost += area_[q] * closure_[q] * closure_[q];
+    area += area_[q];
+    if (number++ % stride != 0) continue;
+    for (const Entry& e : columns_[q]) {
+      if (!known_[e.patch] || e.patch == q) continue;
+      const double there = area_[e.patch] * static_cast<double>(e.value), back = exchange(q, e.patch);
+      // Where nothing comes back the pair would not be met from the other side.
+      const double weight = back == 0 ? 2 : 1;
+      difference += weight * (there - back) * (there - back);
+      size += weight * (there * there + back * back);
+    }
+  }
+  if (area > 0) out.closure = std::sqrt(lost / area);
+  if (size > 0) out.reciprocity = std::sqrt(difference / size);
+  return out;
 }
 
 }  // namespace unshot

@@ -11,6 +11,15 @@
 
 namespace unshot {
 
+/// How far form factors break the laws that exact ones keep, RMS over known columns. Exact for no light: half
+/// of an error may keep both.
+struct FormFactorDefects {
+  double closure = 0;      ///< of what a patch sends, lost or gained: 1 - sum_p F_qp - escaped, area-weighted
+  double reciprocity = 0;  ///< of A_q F_qp against A_p F_pq, over their size: the relative error of one of
+                           ///< them where both err independently
+  std::size_t columns = 0;  ///< known; with fewer than two there is no reciprocity
+};
+
 class PatchMatrix {
  public:
   /// `budget`: bytes that columns may take together; those beyond it stay unknown.
@@ -37,12 +46,16 @@ class PatchMatrix {
   /// The same for one known patch.
   glm::dvec3 transposed(std::uint32_t q, std::span<const glm::dvec3> x) const;
   double area(std::uint32_t q) const { return area_[q]; }
+  /// Closure of all known columns, reciprocity of a few hundred of them against all.
+  FormFactorDefects defects() const;
 
  private:
   struct Entry {
     std::uint32_t patch;
     float value;
   };
+  /// A_p P_pq of known column q [m^2].
+  double exchange(std::uint32_t p, std::uint32_t q) const;
 
   const Receivers& receivers_;
   std::span<const double> area_;
@@ -51,6 +64,7 @@ class PatchMatrix {
   double largest_sent_ = 1;
   std::vector<std::vector<Entry>> columns_;
   std::vector<char> known_, reached_;
+  std::vector<double> closure_;  // what a known column lacks
   std::vector<double> sum_;
   std::vector<std::uint32_t> touched_;
 };

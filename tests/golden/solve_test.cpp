@@ -16,6 +16,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::StartsWith;
 using testing_support::eventually;
 using testing_support::ProgramResult;
@@ -63,6 +64,26 @@ TEST(Solve, WithoutOutputsPrintsTheSummary) {
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("stopped by"));
   EXPECT_EQ(folder.names(), before);
+}
+
+// What does not fit into the memory allowed is computed again: the same light, but for where the error's
+// bound (which has no room either) ends the solve. That is said once, with how much would do.
+TEST(Solve, FormFactorsThatDoNotFitAreSaidAndTheResultIsWritten) {
+  const TempFolder folder;
+  writeRoom(folder);
+  const auto solve = [&](const char* megabytes, const char* file) {
+    return runProgram(folder, {"solve", "room.obj", "--elements", "100", "--mode", "jacobi", "--keep",
+                               megabytes, "--ply", file});
+  };
+  const ProgramResult roomy = solve("100", "roomy.ply"), cramped = solve("0", "cramped.ply");
+  EXPECT_EQ(roomy.code, 0) << roomy.err;
+  EXPECT_EQ(cramped.code, 0) << cramped.err;
+  EXPECT_THAT(roomy.err, Not(HasSubstr("form factors take")));
+  EXPECT_THAT(cramped.err, HasSubstr("form factors take about 1 MB and may take 0 MB"));
+  EXPECT_THAT(cramped.err, HasSubstr("try: --keep 1, "));
+  const ProgramResult same =
+      runProgram(folder, {"compare", "roomy.ply", "cramped.ply", "--tolerance", "0.02"});
+  EXPECT_EQ(same.code, 0) << same.out;
 }
 
 TEST(Solve, TheSameTwiceIsTheSame) {

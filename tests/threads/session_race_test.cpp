@@ -15,7 +15,7 @@ bool bothHaveSolvedFor(const SessionState& s, double seconds) {
   return s.rival && s.measures.seconds > seconds && s.rival->measures.seconds > seconds;
 }
 
-/// The longest step of a solve, by its own clock [s].
+/// No step of the solve took longer, by its own clock [s]: an entry of its history is of one step or more.
 double longestStep(const LaneState& lane) {
   double longest = 0;
   for (std::size_t k = 1; k < lane.history->size(); ++k)
