@@ -5,6 +5,7 @@
 
 #include "base/text.h"
 #include "viewer/comparison.h"
+#include "viewer/race_panel.h"
 #include "viewer/widgets.h"
 
 namespace unshot {
@@ -115,8 +116,8 @@ std::string bounceText(const std::vector<glm::dvec3>& power, std::size_t k) {
 }
 
 void bouncesSection(Viewer& viewer) {
-  if (!section("Bounces")) return;
   const SessionState& state = viewer.state();
+  if (!sectionOfLeft("Bounces", state)) return;
   if (!state.snapshot) {
     ImGui::TextDisabled("nothing yet");
     return;

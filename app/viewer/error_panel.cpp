@@ -66,8 +66,8 @@ std::string errorInFront(const LaneState& state) {
 }
 
 void errorsSection(Viewer& viewer) {
-  if (!section("Errors")) return;
   const SessionState& state = viewer.state();
+  if (!sectionOfLeft("Errors", state)) return;
   const double bound = state.measures.solverBound();
   const std::optional<double>& truth = state.measures.true_error;
   errorBar(

@@ -258,8 +258,8 @@ void displaySection(Viewer& viewer) {
 }
 
 void figuresSection(Viewer& viewer) {
-  if (!section("Figures")) return;
   const SessionState& state = viewer.state();
+  if (!sectionOfLeft("Figures", state)) return;
   if (!state.facts) {
     ImGui::TextDisabled("nothing yet");
     return;

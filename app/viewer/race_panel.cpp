@@ -41,6 +41,11 @@ ImVec4 raceColour(bool rival) {
   return rival ? ImVec4(0.42f, 0.72f, 0.98f, 1) : ImGui::GetStyleColorVec4(ImGuiCol_PlotLines);
 }
 
+bool sectionOfLeft(const char* title, const SessionState& state) {
+  // What follows ### is its identity.
+  return section((std::string(title) + (state.rival ? ", left picture###" : "###") + title).c_str());
+}
+
 void chooseRival(Viewer& viewer) {
   const SessionState& state = viewer.state();
   label("Race against",

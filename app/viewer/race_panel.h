@@ -10,6 +10,9 @@ namespace unshot {
 /// The colour of a solve in a race: of its curve, and of the dot before its name.
 ImVec4 raceColour(bool rival);
 
+/// The header of a part of the panel that is about the present solve alone: in a race it says so.
+bool sectionOfLeft(const char* title, const SessionState& state);
+
 /// The row of the panel that begins and ends a race.
 void chooseRival(Viewer& viewer);
 

@@ -118,7 +118,10 @@ void LiveSolve::perform(const command::SetError& c) {
   forEachLane([&](Lane& lane) { lane.setError(c.error); });
 }
 
-void LiveSolve::perform(const command::CompleteBounces&) { present().completeBounces(); }
+void LiveSolve::perform(const command::CompleteBounces&) {
+  present();
+  forEachLane([](Lane& lane) { lane.completeBounces(); });
+}
 
 void LiveSolve::perform(const command::ShootAgain&) {
   present();

@@ -234,16 +234,18 @@ double ErrorBounds::rmsOf(double squares) const {
 // Each step of a solve comes here, so that all sums are taken in one pass.
 ErrorBounds::Sums ErrorBounds::sumsNow() const {
   Sums out;
-  const std::vector<glm::dvec3>&u = state_.unshot(), &shot = state_.shot(), &emission = state_.emission();
-  const std::vector<glm::dvec3>& weights = norm_.weights();
+  // The compiler cannot know that the sums do not lie over the vectors.
+  const glm::dvec3 *u = state_.unshot().data(), *shot = state_.shot().data(),
+                   *emission = state_.emission().data(), *weights = norm_.weights().data();
+  const double* areas = state_.area().data();
   const bool total = !z_.empty(), compare = comparable(), adapted = !adapted_.empty(),
              near = !nearby_.empty();
-  for (std::size_t q = 0; q < u.size(); ++q) {
-    const double area = state_.area()[q];
+  for (std::size_t q = 0, n = state_.patchCount(); q < n; ++q) {
+    const double area = areas[q];
     const glm::dvec3 size = glm::abs(u[q]);
     if (total) {
       out.weighted += area * sum(size * z_[q]);
-      out.negative += area * sum(glm::max(-u[q], glm::dvec3(0.0)) * z_[q]);
+      if (least(u[q]) < 0) out.negative += area * sum(glm::max(-u[q], glm::dvec3(0.0)) * z_[q]);
     }
     if (compare) {
       out.norm += weights[q] * size * size;

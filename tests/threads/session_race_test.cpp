@@ -86,6 +86,22 @@ TEST(SessionRace, StepsAndPausesBoth) {
   checkPublications(watch.seen());
 }
 
+TEST(SessionRace, WorksOutTheBouncesOfBoth) {
+  SessionWatch watch;
+  watch->open(asset("cornell_box.obj"), closedForm(100, 0.1));
+  watch->race("jacobi");
+  watch.rested();
+  watch->completeBounces();
+  watch.carriedOut();
+  const StatePointer state = watch.wait(
+      "bounces", [](const SessionState& s) { return s.phase == SessionPhase::kConverged && !s.spareWork(); });
+  for (const LaneState* lane : {static_cast<const LaneState*>(state.get()), &*state->rival}) {
+    ASSERT_TRUE(lane->snapshot->bounce_light);
+    EXPECT_EQ(lane->snapshot->bounce_wait.columns, 0u);
+    EXPECT_GT(lane->snapshot->bounce_light->received.size(), 2u);
+  }
+}
+
 TEST(SessionRace, KeepsToTheMemoryThatIsAllowed) {
   SolveOptions options = endless();
   options.kept_bytes = 400'000;
