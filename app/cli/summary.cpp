@@ -43,8 +43,10 @@ std::string estimatesText(const ErrorEstimates& estimates) {
 }
 
 std::string defectsText(const FormFactorDefects& defects) {
-  return "closure is off by " + percentText(defects.closure) + ", reciprocity by " +
-         percentText(defects.reciprocity) + " (RMS of " + countedText(defects.columns, "column") + ")";
+  if (!defects.closure) return "not examined";
+  return "closure is off by " + percentText(*defects.closure) +
+         (defects.reciprocity ? ", reciprocity by " + percentText(*defects.reciprocity) : "") + " (RMS of " +
+         countedText(defects.columns, "column") + ")";
 }
 
 std::string rendererText(const RunRecord& record) {

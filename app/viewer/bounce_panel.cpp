@@ -11,7 +11,7 @@
 namespace unshot {
 namespace {
 
-// Bars are logarithmic, from this part of the light emitted (no bar) to all of it.
+// Bars are logarithmic, over so many decades below all of the light emitted.
 constexpr int kDecades = 4;
 constexpr float kHeight = 6;  // of the bars, in font sizes
 

@@ -189,7 +189,7 @@ void solveSection(Viewer& viewer) {
   const SolveOptions& options = viewer.ui().options;
   label("Iteration",
         "How it is chosen what is shot next. B = E + M B has one solution; the ways to it differ. What was "
-        "shot and received stays");
+        "shot and received stays; in a race both begin anew");
   const std::string mode =
       choose("##mode", iterationModes(), options.mode,
              shownChoice(iterationModes(), options.mode, state.facts ? state.facts->mode : ""),
@@ -287,8 +287,8 @@ void figuresSection(Viewer& viewer) {
          "run");
   }
   const FormFactorDefects& defects = state.estimates.defects;
-  if (defects.columns > 1) {
-    line("Closure, reciprocity", percentText(defects.closure) + ", " + percentText(defects.reciprocity),
+  if (defects.closure && defects.reciprocity) {
+    line("Closure, reciprocity", percentText(*defects.closure) + ", " + percentText(*defects.reciprocity),
          "How far the form factors break two laws of exact ones (RMS): all that a patch sends arrives or "
          "escapes; A F is the same both ways");
   }
@@ -329,11 +329,18 @@ void notesSection(Viewer& viewer) {
       for (const PlanDecision& d : state.facts->plan) bullet(d.what + ": " + d.why);
     }
   }
-  if (!state.facts->diagnostics.empty()) {
-    const std::string title =
-        "Notes on the scene (" + std::to_string(state.facts->diagnostics.size()) + ")###notes";
+  Diagnostics notes = state.facts->diagnostics;
+  if (state.rival) {
+    for (const Diagnostic& d : state.rival->facts->diagnostics) {
+      const bool known = std::any_of(notes.begin(), notes.end(),
+                                     [&](const Diagnostic& n) { return n.message == d.message; });
+      if (!known) notes.push_back(d);
+    }
+  }
+  if (!notes.empty()) {
+    const std::string title = "Notes on the scene (" + std::to_string(notes.size()) + ")###notes";
     if (ImGui::CollapsingHeader(title.c_str())) {
-      for (const Diagnostic& d : state.facts->diagnostics)
+      for (const Diagnostic& d : notes)
         bullet((d.where.empty() ? "" : d.where + ": ") + d.message +
                (d.advice.empty() ? "" : " (" + d.advice + ")"));
     }

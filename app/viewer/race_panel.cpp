@@ -13,10 +13,22 @@ std::string modeTitle(const LaneState& lane) {
   return std::string(findChoice(iterationModes(), lane.facts->mode, "iteration mode").info.title);
 }
 
+const char* endingOf(const LaneState& lane) {
+  switch (lane.own_phase) {
+    case SessionPhase::kConverged:
+      return "converged at ";
+    case SessionPhase::kStopped:
+      return "limit reached at ";
+    case SessionPhase::kFailed:
+      return "failed at ";
+    default:
+      return "";
+  }
+}
+
 // "0.52 s, 3 % unshot": what both have from the first moment.
 std::string standing(const LaneState& lane) {
-  const bool ended = !lane.stopped_by.empty();
-  return (ended ? "ended at " : "") + durationText(lane.measures.seconds) + ", " +
+  return endingOf(lane) + durationText(lane.measures.seconds) + ", " +
          percentText(lane.measures.unshot_fraction) + " unshot";
 }
 

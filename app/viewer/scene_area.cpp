@@ -33,6 +33,7 @@ void SceneArea::setSnapshots(std::shared_ptr<const Snapshot> first, std::shared_
   if (second_.has_value() != (rival != nullptr)) {
     changes_ += 1 + (second_ ? second_->version() : 0);
     second_.reset();
+    second_due_ = false;
     if (rival) second_.emplace(context_);
   }
   if (second_) second_->setSnapshot(std::move(rival));
@@ -63,9 +64,18 @@ bool SceneArea::outdated(const Wanted& wanted) const {
 }
 
 bool SceneArea::draw(const Wanted& wanted, double seconds, double deadline) {
-  const bool drew = first_.draw(firstOf(wanted), seconds, deadline);
-  if (!second_ || first_.drawing() || (drew && wallSeconds() >= deadline)) return drew;
-  return second_->draw(secondOf(wanted), seconds, deadline) || drew;
+  bool drew = false;
+  if (!second_due_ || deadline == SceneDisplay::kAtOnce) {
+    drew = first_.draw(firstOf(wanted), seconds, deadline);
+    if (!second_ || first_.drawing()) return drew;
+    second_wanted_ = secondOf(wanted);
+    second_wanted_.camera = first_.shownCamera();
+    second_due_ = second_->outdated(second_wanted_);
+    if (!second_due_ || wallSeconds() >= deadline) return drew;
+  }
+  second_->draw(second_wanted_, seconds, deadline);
+  second_due_ = second_->drawing();
+  return true;
 }
 
 void SceneArea::sharpen(int samples, double deadline) {

@@ -41,7 +41,7 @@ class SceneArea {
   using Wanted = SceneDisplay::Wanted;
   bool draw(const Wanted& wanted, double seconds, double deadline);
   bool outdated(const Wanted& wanted) const;
-  bool drawing() const { return first_.drawing() || (second_ && second_->drawing()); }
+  bool drawing() const { return first_.drawing() || second_due_; }
   bool drawnAnew() const { return first_.drawnAnew() || (second_ && second_->drawnAnew()); }
   const Camera& shownCamera() const { return first_.shownCamera(); }
   void sharpen(int samples, double deadline);
@@ -61,7 +61,11 @@ class SceneArea {
   gl::Context& context_;
   SceneDisplay first_;
   std::optional<SceneDisplay> second_;  // in a race
-  std::uint64_t changes_ = 0;           // of the number of pictures, and versions of pictures that are gone
+  // After a picture of the first comes the one of the second, from the same camera, before the next of the
+  // first.
+  bool second_due_ = false;
+  Wanted second_wanted_;
+  std::uint64_t changes_ = 0;  // of the number of pictures, and versions of pictures that are gone
 };
 
 }  // namespace unshot

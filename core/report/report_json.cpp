@@ -64,6 +64,8 @@ Json valueOf(const ErrorEstimate& estimate) {
   return estimate.places > 0 ? Json(estimate.value) : Json(nullptr);
 }
 
+Json valueOf(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
 /// 95 %.
 Json intervalOf(const ErrorEstimate& estimate) {
   return estimate.places > 0 ? Json({estimate.low, estimate.high}) : Json(nullptr);
@@ -129,8 +131,8 @@ std::string reportJson(const RunRecord& record) {
                    {"discretisation", valueOf(record.estimates.discretisation)},
                    {"discretisation_interval", intervalOf(record.estimates.discretisation)},
                    {"places", record.estimates.both.places},
-                   {"closure_defect", record.estimates.defects.closure},
-                   {"reciprocity_defect", record.estimates.defects.reciprocity}}},
+                   {"closure_defect", valueOf(record.estimates.defects.closure)},
+                   {"reciprocity_defect", valueOf(record.estimates.defects.reciprocity)}}},
                  {"energy", jsonOf(record.energy)},
                  {"peak_memory_bytes", record.peak_memory_bytes},
                  {"kept_bytes", record.kept_bytes},

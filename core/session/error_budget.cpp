@@ -8,7 +8,7 @@ namespace unshot {
 namespace {
 
 // Share of the solver's work that goes into bounds beyond the passes over patches that each step has anyway.
-constexpr double kShare = 0.05;
+constexpr double kShare = 0.04;
 // An operation is one entry of the matrix times a colour, some 5 ns. A column of K takes this many to compute
 // (1 to 2 ms; a draft of one picture a quarter of a millisecond), and a shot along one at hand that many for
 // each entry of its patch column (it has as many receivers on a patch, and is summed up on the way).
@@ -117,7 +117,11 @@ const ErrorEstimates& ErrorBudget::estimate(std::size_t more_places) {
   if (!residuals_) residuals_.emplace(mesh_, transport_.receivers(), seed_);
   residuals_->add(more_places);
   estimates_ = residuals_->estimate(state_, matrix_);
-  estimates_.defects = matrix_.defects();
+  if (defects_version_ != matrix_.version()) {
+    defects_ = matrix_.defects();
+    defects_version_ = matrix_.version();
+  }
+  estimates_.defects = defects_;
   return estimates_;
 }
 

@@ -48,7 +48,9 @@ class ErrorBudget {
   SolverBounds now_;
   std::optional<Residuals> residuals_;
   ErrorEstimates estimates_;
-  double credit_ = 0;  // operations that the solver's work allows
+  FormFactorDefects defects_;
+  std::uint64_t defects_version_ = 0;  // of the matrix
+  double credit_ = 0;                  // operations that the solver's work allows
   std::uint64_t shots_ = 0;
   std::size_t refreshed_count_ = 0;
   std::uint64_t refreshed_version_ = ~std::uint64_t{0};

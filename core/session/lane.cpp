@@ -78,8 +78,12 @@ SessionPhase Lane::phase(bool paused) const {
   }
 }
 
-Solve& Lane::usable() {
+void Lane::checkUsable() const {
   if (broken()) throw Error(ErrorKind::kUsage, "the solve has failed and cannot go on", {}, "restart it");
+}
+
+Solve& Lane::usable() {
+  checkUsable();
   return *solve_;
 }
 
@@ -204,8 +208,9 @@ void Lane::refresh(bool resting, double interval) {
     history_ = std::make_shared<const std::vector<HistoryEntry>>(solve_->history());
 }
 
-LaneState Lane::state(bool resting) const {
+LaneState Lane::state(bool resting, bool paused) const {
   LaneState state;
+  state.own_phase = phase(paused);
   state.facts = facts_;
   state.snapshot = snapshot_;
   state.history = history_;

@@ -31,7 +31,9 @@ class Lane {
   bool running() const { return !broken() && solve_->state() == SolveState::kRunning; }
   SessionPhase phase(bool paused) const;
 
-  // These throw an Error where the solve is broken, or refuses.
+  /// Throws an Error where the solve is broken.
+  void checkUsable() const;
+  // These throw it too, or where the solve refuses.
   void setMode(const std::string& key);
   void setError(double error);
   void again();
@@ -53,7 +55,7 @@ class Lane {
   bool due(double interval) const;
   /// Makes what is shown anew where it is stale: a snapshot of a lane at rest, or where one is due.
   void refresh(bool resting, double interval);
-  LaneState state(bool resting) const;
+  LaneState state(bool resting, bool paused) const;
 
  private:
   Solve& usable();

@@ -12,7 +12,8 @@ namespace unshot {
 
 bool isSuperseded(const Command& command, const Command& later) {
   const bool opens = std::holds_alternative<command::Open>(later);
-  if (std::holds_alternative<command::Open>(command) || std::holds_alternative<command::Race>(command))
+  if (std::holds_alternative<command::Open>(command) || std::holds_alternative<command::Race>(command) ||
+      std::holds_alternative<command::SetMode>(command))  // in a race it begins anew
     return opens;
   return std::holds_alternative<command::Restart>(command) &&
          (opens || std::holds_alternative<command::Restart>(later));
@@ -43,9 +44,9 @@ void LiveSolve::step() {
   takeSteps();
   if (running() && steps_left_ > 0 && --steps_left_ == 0) paused_ = true;
   settle();
-  bool due = !running();
-  forEachLane([&](const Lane& lane) { due = due || lane.due(*setup_.interval); });
-  if (due) publish();
+  bool due = true;
+  forEachLane([&](const Lane& lane) { due = due && (!lane.running() || lane.due(*setup_.interval)); });
+  if (due || !running()) publish();
 }
 
 // In a race the clock of one rests while the other takes its step; steps that were asked for are taken by
@@ -78,8 +79,8 @@ void LiveSolve::spareWork() {
 void LiveSolve::perform(const command::Open& c) {
   announce("reading " + c.scene.filename().string());
   const double began = wallSeconds();
-  const Scene scene = readObj(c.scene, setup_.given_up);
-  begin(scene, c.options, wallSeconds() - began, std::nullopt);
+  Scene scene = readObj(c.scene, setup_.given_up);
+  begin(std::move(scene), c.options, wallSeconds() - began, std::nullopt);
 }
 
 void LiveSolve::perform(const command::Restart& c) {
@@ -110,31 +111,31 @@ void LiveSolve::perform(const command::SetMode& c) {
   const Lane& lane = present();
   SolveOptions options = lane.facts().options;
   options.mode = c.key;
-  begin(lane.solve().scene(), options, lane.facts().load_seconds, rivalMode());
+  begin(lane.solve().scene(), options, lane.facts().load_seconds, rivalMode(), lane.mesh());
 }
 
 void LiveSolve::perform(const command::SetError& c) {
-  present();
-  forEachLane([&](Lane& lane) { lane.setError(c.error); });
+  forEachUsable([&](Lane& lane) { lane.setError(c.error); });
 }
 
 void LiveSolve::perform(const command::CompleteBounces&) {
-  present();
-  forEachLane([](Lane& lane) { lane.completeBounces(); });
+  forEachUsable([](Lane& lane) { lane.completeBounces(); });
 }
 
 void LiveSolve::perform(const command::ShootAgain&) {
-  present();
-  forEachLane([](Lane& lane) { lane.again(); });
+  forEachUsable([](Lane& lane) { lane.again(); });
   ++epoch_;
 }
 
 void LiveSolve::perform(const command::Race& c) {
   const Lane& lane = present();
-  begin(lane.solve().scene(), lane.facts().options, lane.facts().load_seconds, c.mode);
+  begin(lane.solve().scene(), lane.facts().options, lane.facts().load_seconds, c.mode, lane.mesh());
 }
 
-void LiveSolve::perform(const command::EndRace&) { rival_.reset(); }
+void LiveSolve::perform(const command::EndRace&) {
+  rival_.reset();
+  if (!lane_ || !lane_->running()) paused_ = false;
+}
 
 SessionPhase LiveSolve::phase() const {
   if (!task_.empty()) return SessionPhase::kLoading;
@@ -170,19 +171,24 @@ std::unique_ptr<Lane> LiveSolve::makeLane(Scene scene, const SolveOptions& own, 
                                 [this](Error problem) { note(std::move(problem)); });
 }
 
-// What is new takes the old one's place only when it stands and has its first snapshots.
-void LiveSolve::begin(const Scene& scene, const SolveOptions& options, double load_seconds,
-                      const std::optional<std::string>& rival_mode) {
+// What is new takes the old one's place only when it stands and has its first snapshots. `mesh`: where it is
+// at hand.
+void LiveSolve::begin(Scene scene, const SolveOptions& options, double load_seconds,
+                      const std::optional<std::string>& rival_mode, std::shared_ptr<const Mesh> mesh) {
   setup_.given_up.check();
   announce("meshing " + scene.path.filename().string());
   SolveOptions own = options;
-  if (rival_mode) own.kept_bytes /= 2;  // both together keep to what was allowed
-  std::unique_ptr<Lane> fresh = makeLane(scene, own, options, load_seconds), rival;
-  if (rival_mode) {
+  own.mesh = std::move(mesh);
+  std::unique_ptr<Lane> fresh, rival;
+  if (!rival_mode) {
+    fresh = makeLane(std::move(scene), own, options, load_seconds);
+  } else {
+    own.sharers = 2;
+    fresh = makeLane(scene, own, options, load_seconds);
     SolveOptions asked = options;
     own.mode = asked.mode = *rival_mode;
     own.mesh = fresh->mesh();
-    rival = makeLane(scene, own, asked, load_seconds);
+    rival = makeLane(std::move(scene), own, asked, load_seconds);
     fresh->rest();
     rival->rest();
   }
@@ -220,8 +226,8 @@ void LiveSolve::publish() {
   if (task_.empty())
     forEachLane([&](Lane& lane) { lane.refresh(!going || !lane.running(), *setup_.interval); });
   const bool rests = !going && task_.empty();
-  if (lane_) static_cast<LaneState&>(*state) = lane_->state(rests);
-  if (rival_) state->rival = rival_->state(rests);
+  if (lane_) static_cast<LaneState&>(*state) = lane_->state(rests, paused_);
+  if (rival_) state->rival = rival_->state(rests, paused_);
   state->version = ++version_;
   state->epoch = epoch_;
   state->commands = commands_;

@@ -98,8 +98,8 @@ class LiveSolve {
   std::optional<std::string> rivalMode() const;
   std::unique_ptr<Lane> makeLane(Scene scene, const SolveOptions& own, const SolveOptions& asked,
                                  double load_seconds);
-  void begin(const Scene& scene, const SolveOptions& options, double load_seconds,
-             const std::optional<std::string>& rival_mode);
+  void begin(Scene scene, const SolveOptions& options, double load_seconds,
+             const std::optional<std::string>& rival_mode, std::shared_ptr<const Mesh> mesh = nullptr);
   void takeSteps();
   void announce(const std::string& task);
   void settle();
@@ -110,6 +110,14 @@ class LiveSolve {
     for (Lane* lane : {lane_.get(), rival_.get()}) {
       if (lane) f(*lane);
     }
+  }
+
+  /// The same where there are any and none of them is broken; throws an Error else, before anything is done.
+  template <class F>
+  void forEachUsable(F&& f) {
+    present();
+    forEachLane([](Lane& lane) { lane.checkUsable(); });
+    forEachLane(f);
   }
 
   LiveSolveSetup setup_;

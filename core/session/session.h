@@ -25,7 +25,8 @@ enum class SessionPhase {
   kFailed,     ///< numerical trouble, or a step threw; the last good snapshot stays
 };
 
-/// What stays the same during one solve; made anew when its mode or error is set.
+/// What stays the same during one solve; made anew when its mode or error is set, or when it has
+/// something new to say.
 struct SolveFacts {
   std::filesystem::path scene_path;
   std::string scene_name;
@@ -53,6 +54,7 @@ struct LaneState {
   std::size_t kept_bytes = 0;  ///< memory held by kept columns
   std::uint64_t drawn = 0;     ///< hemicubes drawn
   std::string stopped_by;      ///< Solve::stoppedBy, or what a step threw
+  SessionPhase own_phase = SessionPhase::kEmpty;  ///< of this solve by itself
 };
 
 /// One moment of the session, with the state of its solve.
@@ -119,7 +121,7 @@ class Session {
   /// `shots` more steps (in a race: of each solve), added to those still due, then a pause; 0 where none are
   /// due: a pause.
   void step(std::uint64_t shots);
-  /// Another iteration mode; what was shot and received stays.
+  /// Another iteration mode; what was shot and received stays, but in a race both solves begin anew.
   void setMode(std::string key);
   /// Another error to aim for (SolveOptions::error): a converged solve that has not reached it runs again,
   /// one that has converges at once.

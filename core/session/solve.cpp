@@ -107,7 +107,8 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl, const CancelT
                                            perPatch(*mesh, &Side::reflectance));
   cancel.check();
   ambient = std::make_unique<AmbientTerm>(mesh->patch_count, mesh->patch_air);
-  budget = std::make_unique<ErrorBudget>(*mesh, *transport, *state, options.kept_bytes / 4, options.seed);
+  budget = std::make_unique<ErrorBudget>(*mesh, *transport, *state, options.kept_bytes / options.sharers / 4,
+                                         options.seed);
   transport->watchColumns([this](std::uint32_t q, const Column& column) {
     ambient->sees(q, column, transport->receivers());
     budget->columnComputed(q, column);
@@ -143,7 +144,7 @@ void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl, const C
   cancel.check();
   Receivers receivers = makeReceivers(*mesh, method->receiverKind(), cancel);
   transport = std::make_unique<Transport>(std::move(method), std::move(receivers), mesh->patch_area,
-                                          options.kept_bytes);
+                                          options.kept_bytes / options.sharers);
   transport->allowDrafts(options.draft_first && !options.bounces);
 }
 
@@ -251,14 +252,16 @@ void Solve::Impl::noteMissingRoom() {
   const auto megabytes = [](std::size_t bytes) {
     return std::to_string(static_cast<std::size_t>(std::ceil(static_cast<double>(bytes) / 1e6)));
   };
+  const std::size_t needed = options.sharers * transport->missingRoom();
+  const bool other_mode = !options.bounces && mode_key != "kept-first";
   diagnostics.push_back({Severity::kWarning,
                          "form-factors-not-kept",
-                         "the form factors take about " + megabytes(transport->missingRoom()) +
-                             " MB and may take " + megabytes(options.kept_bytes) +
+                         "the form factors take about " + megabytes(needed) + " MB and may take " +
+                             megabytes(options.kept_bytes) +
                              " MB: those beyond are computed again whenever they are needed",
                          {},
-                         "--keep " + megabytes(transport->missingRoom() * 11 / 10) +
-                             ", fewer --elements, or the mode kept-first"});
+                         "--keep " + megabytes(needed * 11 / 10) + ", fewer --elements" +
+                             (other_mode ? ", or the mode kept-first" : "")});
 }
 
 // A curve needs no more points than a plot has pixels: each is a hundredth further than the last.

@@ -6,7 +6,7 @@
 namespace unshot {
 namespace {
 
-constexpr std::size_t kColumnsCompared = 256;
+constexpr std::size_t kColumnsCompared = 64;
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,10 +15,12 @@ namespace unshot {
 /// How far form factors break the laws that exact ones keep, RMS over known columns. Exact for no light: half
 /// of an error may keep both.
 struct FormFactorDefects {
-  double closure = 0;      ///< of what a patch sends, lost or gained: 1 - sum_p F_qp - escaped, area-weighted
-  double reciprocity = 0;  ///< of A_q F_qp against A_p F_pq, over their size: the relative error of one of
-                           ///< them where both err independently
-  std::size_t columns = 0;  ///< known; with fewer than two there is no reciprocity
+  /// Of what a patch sends, lost or gained: 1 - sum_p F_qp - escaped, area-weighted; none without a column.
+  std::optional<double> closure;
+  /// Of A_q F_qp against A_p F_pq, over their size: the relative error of one of them where both err
+  /// independently; none where no two columns see each other.
+  std::optional<double> reciprocity;
+  std::size_t columns = 0;  ///< known
 };
 
 class PatchMatrix {
@@ -46,7 +49,7 @@ class PatchMatrix {
   /// The same for one known patch.
   glm::dvec3 transposed(std::uint32_t q, std::span<const glm::dvec3> x) const;
   double area(std::uint32_t q) const { return area_[q]; }
-  /// Closure of all known columns, reciprocity of a few hundred of them against all.
+  /// Closure of all known columns, reciprocity of some of them against all.
   FormFactorDefects defects() const;
 
  private:

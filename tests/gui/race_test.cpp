@@ -69,7 +69,7 @@ TEST(Race, ShowsBothAlikeWhereTheyAreAlike) {
   EXPECT_LT(lightDifference(picture(folder, "off.png"), picture(folder, "alone.png")), 0.003);
 }
 
-TEST(Race, IsShownInCurvesLabelsAndPanel) {
+TEST(Race, LabelsBothPictures) {
   LiveViewer::Options options;
   options.scene = kCornellBox;
   options.solve.elements = 300;

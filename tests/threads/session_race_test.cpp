@@ -17,7 +17,7 @@ bool bothHaveSolvedFor(const SessionState& s, double seconds) {
 
 /// No step of the solve took longer, by its own clock [s]: an entry of its history is of one step or more.
 double longestStep(const LaneState& lane) {
-  double longest = 0;
+  double longest = lane.measures.seconds - lane.history->back().measures.seconds;
   for (std::size_t k = 1; k < lane.history->size(); ++k)
     longest =
         std::max(longest, (*lane.history)[k].measures.seconds - (*lane.history)[k - 1].measures.seconds);

@@ -45,8 +45,8 @@ TEST(FormFactorDefects, AreNoneOfReciprocalFactorsThatAddUp) {
   patches.set(2, {0.25f, 0.125f, 0});
   const FormFactorDefects defects = patches.matrix.defects();
   EXPECT_EQ(defects.columns, 3u);
-  EXPECT_EQ(defects.closure, 0);
-  EXPECT_EQ(defects.reciprocity, 0);
+  EXPECT_EQ(defects.closure.value(), 0);
+  EXPECT_EQ(defects.reciprocity.value(), 0);
 }
 
 // sqrt(((a - b)^2 summed) / ((a^2 + b^2) summed)) by hand.
@@ -59,14 +59,14 @@ TEST(FormFactorDefects, AreWhatTheDefinitionSays) {
   };
   FormFactorDefects defects = patches.matrix.defects();
   EXPECT_EQ(defects.columns, 2u);
-  EXPECT_NEAR(defects.reciprocity, reciprocity(0.3, 0.25), 1e-6);
-  EXPECT_NEAR(defects.closure, std::sqrt((1 * 0.01 + 2 * 0.04) / 3), 1e-12);
+  EXPECT_NEAR(defects.reciprocity.value(), reciprocity(0.3, 0.25), 1e-6);
+  EXPECT_NEAR(defects.closure.value(), std::sqrt((1 * 0.01 + 2 * 0.04) / 3), 1e-12);
   // Light that arrives and does not come back is all error, from whichever side it is met.
   patches.set(2, {0.25f, 0.125f, 0});
   const double d = 0.05 * 0.05 + 0.25 * 0.25, s = 0.3 * 0.3 + 3 * 0.25 * 0.25 + 0.25 * 0.25;
   defects = patches.matrix.defects();
-  EXPECT_NEAR(defects.reciprocity, std::sqrt((2 * 0.05 * 0.05 + 2 * 0.25 * 0.25) / (2 * s)), 1e-6);
-  EXPECT_NEAR(defects.reciprocity, std::sqrt(d / s), 1e-6);
+  EXPECT_NEAR(defects.reciprocity.value(), std::sqrt((2 * 0.05 * 0.05 + 2 * 0.25 * 0.25) / (2 * s)), 1e-6);
+  EXPECT_NEAR(defects.reciprocity.value(), std::sqrt(d / s), 1e-6);
 }
 
 // Errors of one relative size, independent both ways, are told by their size.
@@ -84,7 +84,7 @@ TEST(FormFactorDefects, AreTheRelativeErrorOfIndependentFactors) {
     patches.set(q, factors);
   }
   // 3,540 pairs: the RMS of their differences is known to about a fiftieth.
-  EXPECT_NEAR(patches.matrix.defects().reciprocity, kError, 0.1 * kError);
+  EXPECT_NEAR(patches.matrix.defects().reciprocity.value(), kError, 0.1 * kError);
 }
 
 }  // namespace
