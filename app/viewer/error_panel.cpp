@@ -92,7 +92,7 @@ void errorsSection(Viewer& viewer) {
 namespace {
 
 struct Curves {
-  std::vector<PlotPoint> unshot, bound;
+  std::vector<PlotPoint> unshot, bound, lower;  // lower: where bound is
 };
 
 Curves curvesOf(const LaneState& lane, PlotAxis axis) {
@@ -104,7 +104,9 @@ Curves curvesOf(const LaneState& lane, PlotAxis axis) {
                      : axis == PlotAxis::kShots ? static_cast<double>(m.shots)
                                                 : static_cast<double>(m.rows);
     curves.unshot.push_back({x, m.unshot_fraction});
-    if (m.solverBound() < kMostShown) curves.bound.push_back({x, m.solverBound()});
+    if (m.solverBound() >= kMostShown) return;
+    curves.bound.push_back({x, m.solverBound()});
+    curves.lower.push_back({x, m.bounds.upper < kNoBound ? m.bounds.lower : 0});  // both of the RMS
   };
   for (const HistoryEntry& entry : *lane.history) add(entry.measures);
   add(lane.measures);
@@ -134,9 +136,12 @@ void convergenceSection(Viewer& viewer) {
   tooltip("Columns and rows of form factors computed");
   ImGui::PopStyleVar();
   ImGui::SetCursorPos(corner);
-  style.second = state.rival ? PlotCurve{rival.unshot, "", raceColour(true), true}
-                             : PlotCurve{curves.bound, "bound of the error",
-                                         ImGui::GetStyleColorVec4(ImGuiCol_Text), false};
+  if (state.rival) {
+    style.second = {rival.unshot, "", raceColour(true), true};
+  } else {
+    style.second = {curves.bound, "bounds of the error", ImGui::GetStyleColorVec4(ImGuiCol_Text), false,
+                    curves.lower};
+  }
   logPlot("##unshot", curves.unshot, style);
   raceStandings(state);
 }

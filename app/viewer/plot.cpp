@@ -36,6 +36,7 @@ class LogPlot {
   void drawArea(ImDrawList& list) const;
   void drawLine(ImDrawList& list, const std::vector<ImVec2>& curve, ImU32 colour, float thickness) const;
   void drawSecond(ImDrawList& list) const;
+  void drawBand(ImDrawList& list) const;
   void drawMarker(ImDrawList& list, ImVec2 at, ImU32 colour) const;
 
   float xOf(double x) const {
@@ -240,6 +241,41 @@ void LogPlot::drawLine(ImDrawList& list, const std::vector<ImVec2>& curve, ImU32
   if (curve.size() > begin + 1) piece(begin, curve.size());
 }
 
+// Where both ends are known. Without smoothed edges: pieces that touch would show their seams.
+void LogPlot::drawBand(ImDrawList& list) const {
+  const PlotCurve& second = style_.second;
+  if (second.low.size() != second.points.size()) return;
+  ImVec4 colour = second.colour;
+  colour.w *= 0.15f;
+  const ImU32 packed = ImGui::GetColorU32(colour);
+  const ImVec2 white = ImGui::GetFontTexUvWhitePixel();
+  std::vector<ImVec2> ends;  // high and low by turns, one pair a column of pixels
+  const auto draw = [&] {
+    const int pairs = static_cast<int>(ends.size() / 2);
+    if (pairs > 1) {
+      list.PrimReserve(6 * (pairs - 1), 2 * pairs);
+      const unsigned int first = list._VtxCurrentIdx;
+      for (const ImVec2& end : ends) list.PrimWriteVtx(end, white, packed);
+      for (unsigned int at = first; at + 2 < first + 2 * static_cast<unsigned int>(pairs); at += 2) {
+        for (unsigned int corner : {0u, 2u, 3u, 0u, 3u, 1u})
+          list.PrimWriteIdx(static_cast<ImDrawIdx>(at + corner));
+      }
+    }
+    ends.clear();
+  };
+  for (std::size_t i = 0; i < second.points.size(); ++i) {
+    if (!isShown(second.points[i]) || !isShown(second.low[i])) {
+      draw();
+      continue;
+    }
+    const ImVec2 high = pixelOf(second.points[i]), low = pixelOf(second.low[i]);
+    if (!ends.empty() && high.x < ends.back().x + 1 && i + 1 < second.points.size()) continue;
+    ends.push_back(high);
+    ends.push_back({low.x, std::min(low.y, bottom_)});
+  }
+  draw();
+}
+
 void LogPlot::drawSecond(ImDrawList& list) const {
   if (second_.size() < 2) return;
   const PlotCurve& second = style_.second;
@@ -262,6 +298,7 @@ void LogPlot::draw(ImDrawList& list) {
   drawGrid(list);
   drawArea(list);
   drawGoal(list);
+  drawBand(list);
   drawSecond(list);
   drawLine(list, curve_, styled(ImGuiCol_PlotLines), wholePixels(em_ / 7.5f));
   labels_.draw(list);
