@@ -106,7 +106,7 @@ Curves curvesOf(const LaneState& lane, PlotAxis axis) {
     curves.unshot.push_back({x, m.unshot_fraction});
     if (m.solverBound() >= kMostShown) return;
     curves.bound.push_back({x, m.solverBound()});
-    curves.lower.push_back({x, m.bounds.upper < kNoBound ? m.bounds.lower : 0});  // both of the RMS
+    curves.lower.push_back({x, m.solverLowerBound()});
   };
   for (const HistoryEntry& entry : *lane.history) add(entry.measures);
   add(lane.measures);

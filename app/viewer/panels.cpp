@@ -150,7 +150,10 @@ void chooseHemicube(Viewer& viewer) {
       "Hemicube",
       "Pixels along an edge of the hemicube; lights get up to four times as many. Another resolution solves "
       "again from the start");
-  const bool unused = viewer.state().facts && viewer.state().facts->form_factors != "hemicube";
+  const SessionState& state = viewer.state();
+  const bool unused =
+      state.facts &&
+      !findChoice(formFactorMethods(), state.facts->form_factors, "form-factor method").needs_gl;
   ImGui::BeginDisabled(unused);
   if (ImGui::BeginCombo("##hemicube", textOf(asked).c_str())) {
     for (const std::uint32_t choice : kChoices) {

@@ -13,17 +13,15 @@
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <unordered_map>
 #include <utility>
 
-#include "base/random.h"
-#include "formfactor/hemicube_picture.h"
-#include "formfactor/hemicube_rays.h"
+#include "formfactor/emitter_share.h"
+#include "formfactor/hemicube_choice.h"
+#include "formfactor/item_elements.h"
 #include "formfactor/methods.h"
 #include "formfactor/patch_groups.h"
 #include "formfactor/regions.h"
-#include "mesh/grid.h"
 
 namespace unshot {
 namespace {
@@ -32,9 +30,6 @@ namespace {
 constexpr double kNearShare = 0.05;
 constexpr double kSplitFraction = 0.75;
 constexpr double kEmitterSplitFraction = 0.125;
-// A region with more than this share of the power that a channel emits counts as an emitter here: there are
-// at most a few hundred such regions, whatever the scene.
-constexpr double kEmitterShare = 1.0 / 64;
 // The floor: parts are not smaller than about half an element, or than this share of the scene's size where
 // elements are coarse. Small patches of a fine scene are not split at all.
 constexpr double kFloorShare = 1.0 / 32;
@@ -47,12 +42,6 @@ constexpr std::uint32_t kResolution = 64;
 constexpr std::uint32_t kEmitterFactor = 4;
 constexpr std::uint32_t kTracedEmitterFactor = 2;  // a ray costs more than a drawn pixel
 constexpr std::uint32_t kFinestEmitterResolution = 1024;
-
-// What the pixel loop needs of a surface, together in memory.
-struct SurfaceLookup {
-  std::uint32_t nu, nv, first_cell;
-  std::uint32_t first_element[2];  // kNone: that side has none
-};
 
 // Patches that may shoot as one, and what their pictures may take while the others of a group may come.
 constexpr std::uint32_t kGroupPatches = 16;
@@ -67,21 +56,14 @@ struct GroupView {
 class Hemicube final : public FormFactorMethod {
  public:
   Hemicube(const FormFactorSetup& setup)
-      : mesh_(*setup.mesh), groups_(mesh_, kGroupPatches), seed_(setup.seed) {
+      : mesh_(*setup.mesh),
+        groups_(mesh_, kGroupPatches),
+        elements_(mesh_),
+        emitters_(mesh_),
+        seed_(setup.seed) {
     resolution_ = setup.hemicube_resolution != 0 ? setup.hemicube_resolution : kResolution;
     chooseView(setup);
     floor_ = std::min(mesh_.element_size / 2, kFloorShare * glm::length(mesh_.bounds_max - mesh_.bounds_min));
-    for (const Surface& s : mesh_.surfaces) {
-      SurfaceLookup lookup{s.nu, s.nv, s.first_cell, {kNone, kNone}};
-      for (int back = 0; back < 2; ++back) {
-        if (s.side[back] != kNone) lookup.first_element[back] = mesh_.sides[s.side[back]].first_element;
-      }
-      lookups_.push_back(lookup);
-    }
-    for (std::uint32_t q = 0; q < mesh_.patch_count; ++q) {
-      emitted_ += mesh_.patch_area[q] * mesh_.sides[mesh_.patch_side[q]].emission;
-    }
-    fillCells();
     received_.assign(mesh_.element_count, 0.0);
     touched_.assign(mesh_.element_count / 64 + 1, 0);
   }
@@ -181,57 +163,15 @@ class Hemicube final : public FormFactorMethod {
     group_views_.emplace(group, std::move(view));
   }
 
-  // OpenGL draws, but where a software rasteriser would have to chew through thousands of triangles a
-  // picture: its cost grows with all of them (25 ms at 210,000), a ray's with their logarithm (1 ms).
   void chooseView(const FormFactorSetup& setup) {
-    HemicubeDrawing drawing = setup.hemicube_drawing;
-    if (drawing == HemicubeDrawing::kAuto || drawing == HemicubeDrawing::kClassic) {
-      const bool many = mesh_.triangles.size() >
-                        (drawing == HemicubeDrawing::kAuto ? kDrawnTrianglesAuto : kDrawnTrianglesClassic);
-      drawing = many && !setup.gl().info().hardware ? HemicubeDrawing::kRays : HemicubeDrawing::kOpenGl;
-    }
-    if (drawing == HemicubeDrawing::kRays) {
-      view_ = std::make_unique<HemicubeRays>(mesh_, setup.cancel);
-      emitter_resolution_ = emitterResolution(kTracedEmitterFactor);
-      note_ = "hemicubes are traced with rays: " + std::to_string(mesh_.triangles.size()) +
-              " triangles are too many a picture for a software renderer";
-    } else {
-      view_ = std::make_unique<HemicubePicture>(setup.gl(), mesh_);
-      emitter_resolution_ = emitterResolution(kEmitterFactor);
-    }
+    ChosenHemicubeView chosen = chooseHemicubeView(setup);
+    view_ = std::move(chosen.view);
+    note_ = std::move(chosen.note);
+    emitter_resolution_ = emitterResolution(chosen.traced ? kTracedEmitterFactor : kEmitterFactor);
   }
 
   std::uint32_t emitterResolution(std::uint32_t factor) const {
     return std::max(resolution_, std::min(factor * resolution_, kFinestEmitterResolution));
-  }
-
-  // Cells without area border on the outline; rounding can put a pixel there, which then belongs to the
-  // nearest cell that has an element. Cells cut by contacts hold several elements; their pixels ask the
-  // pieces.
-  void fillCells() {
-    cell_element_.resize(mesh_.cells.size());
-    for (std::size_t c = 0; c < mesh_.cells.size(); ++c) cell_element_[c] = mesh_.cells[c].element;
-    for (const SurfaceLookup& s : lookups_) {
-      std::vector<std::uint32_t> border;
-      for (std::uint32_t c = 0; c < s.nu * s.nv; ++c) {
-        if (cell_element_[s.first_cell + c] != kNone) border.push_back(c);
-      }
-      if (border.size() == std::size_t{s.nu} * s.nv) continue;
-      for (std::size_t k = 0; k < border.size(); ++k) {
-        const std::uint32_t c = border[k], i = c % s.nu, j = c / s.nu;
-        const auto spread = [&](bool possible, std::uint32_t other) {
-          if (!possible || cell_element_[s.first_cell + other] != kNone) return;
-          const std::uint32_t own = cell_element_[s.first_cell + c];
-          cell_element_[s.first_cell + other] =
-              own != kMixed ? own : mesh_.pieces[mesh_.cells[s.first_cell + c].pieces.first].element;
-          border.push_back(other);
-        };
-        spread(i > 0, c - 1);
-        spread(i + 1 < s.nu, c + 1);
-        spread(j > 0, c - s.nu);
-        spread(j + 1 < s.nv, c + s.nu);
-      }
-    }
   }
 
   void begin() { escape_ = 0; }
@@ -274,32 +214,13 @@ class Hemicube final : public FormFactorMethod {
   }
 
   HemicubeFrame frameOf(const Region& region, const Side& side) const {
-    const Surface& surface = mesh_.surfaces[region.surface];
-    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
-    const std::uint64_t hash =
-        mixBits(mixBits(mixBits(seed_ ^ (region.surface * 2 + side.back)) ^ bits(region.sample.x)) ^
-                bits(region.sample.y));
-    const double angle = unitInterval(hash) * std::numbers::pi / 2;
-    HemicubeFrame frame;
-    frame.eye = surface.point(region.sample);
-    frame.normal = side.normal;
-    frame.right = std::cos(angle) * surface.axis_u + std::sin(angle) * surface.axis_v;
-    frame.own_surface = region.surface;
-    frame.near_distance = 1e-3 * std::sqrt(region.area);
-    return frame;
-  }
-
-  bool emitsMuch(const Region& region, const Side& side) const {
-    for (int c = 0; c < 3; ++c) {
-      if (region.area * side.emission[c] > kEmitterShare * emitted_[c]) return true;
-    }
-    return false;
+    return turnedHemicube(mesh_, region.surface, side, region.sample, 1e-3 * std::sqrt(region.area), seed_);
   }
 
   // Shoots from the region or, where its view is too near for one point, from its parts. Adds share = area *
   // per_area in all.
   void shoot(const Region& region, const Side& side, int splits, double per_area) {
-    const bool emits = emitsMuch(region, side);
+    const bool emits = emitters_.isLarge(side, region.area);
     const HemicubeLayout layout{emits ? emitter_resolution_ : resolution_};
     const std::vector<double>& delta = deltas(layout);
     const HemicubeView::Result seen = view_->look(frameOf(region, side), layout);
@@ -323,54 +244,20 @@ class Hemicube final : public FormFactorMethod {
   void count(const HemicubeView::Result& seen, const std::vector<double>& delta, HemicubeLayout layout,
              double share) {
     for (std::size_t k = 0; k < delta.size(); ++k) {
-      std::uint32_t element = elementOf(seen.items[k]);
-      if (element == kTied) element = elementBeside(seen, layout, k);
+      const std::uint32_t element = elements_.at(seen.items, layout, k);
       if (element == kNone) {
         escape_ += share * delta[k];
-      } else if (element < kLost) {
+      } else if (element != ItemElements::kLost) {
         touched_[element / 64] |= std::uint64_t{1} << element % 64;
         received_[element] += share * delta[k];
       }
     }
   }
 
-  // kNone: the pixel sees nothing; kLost: a side that no light can reach, seen by rounding only; kTied: see
-  // Item::tie. What is lost shows as the column's defect.
-  static constexpr std::uint32_t kTied = kNone - 1, kLost = kNone - 2;
-
-  std::uint32_t elementOf(const Item& item) const {
-    if (item.nothing()) return kNone;
-    if (item.tie()) return kTied;
-    const SurfaceLookup& s = lookups_[item.surface()];
-    const std::uint32_t first = s.first_element[item.back()];
-    if (first == kNone) return kLost;
-    const std::uint32_t u = item.chart & 0xffffu, v = item.chart >> 16;
-    std::uint32_t local = cell_element_[s.first_cell + (v * s.nv >> 16) * s.nu + (u * s.nu >> 16)];
-    if (local == kMixed) {
-      const Surface& surface = mesh_.surfaces[item.surface()];
-      const glm::dvec2 step = surface.extent / 65536.0;
-      local = elementAt(mesh_, surface, glm::dvec2(u + 0.5, v + 0.5) * step, std::max(step.x, step.y));
-      if (local == kNone) return kTied;
-    }
-    return first + local;
-  }
-
-  // Where surfaces meet, rounding may let the one behind win a pixel, and light would leak through closed
-  // walls. Such a pixel takes what one next to it sees; where all are doubtful, its light is lost and shows
-  // as defect.
-  std::uint32_t elementBeside(const HemicubeView::Result& seen, HemicubeLayout layout, std::size_t k) const {
-    const std::size_t width = layout.width();
-    const std::size_t beside[] = {k % width > 0 ? k - 1 : k, (k + 1) % width > 0 ? k + 1 : k,
-                                  k >= width ? k - width : k, k + width < seen.items.size() ? k + width : k};
-    for (const std::size_t other : beside) {
-      const std::uint32_t element = elementOf(seen.items[other]);
-      if (element != kTied) return element;
-    }
-    return kLost;
-  }
-
   const Mesh& mesh_;
   PatchGroups groups_;
+  ItemElements elements_;
+  EmitterShare emitters_;
   std::unordered_map<std::uint32_t, GroupView> group_views_;
   std::size_t group_bytes_ = 0;
   std::unique_ptr<HemicubeView> view_;
@@ -378,9 +265,6 @@ class Hemicube final : public FormFactorMethod {
   std::uint64_t seed_;
   double floor_ = 0;  // [m]
   std::uint32_t resolution_ = 0, emitter_resolution_ = 0;
-  glm::dvec3 emitted_{0.0};  // power of all patches, per channel [W]
-  std::vector<SurfaceLookup> lookups_;
-  std::vector<std::uint32_t> cell_element_;
   std::vector<std::pair<std::uint32_t, std::vector<double>>> deltas_;
   std::vector<double> received_;        // per element, of the column in work
   std::vector<std::uint64_t> touched_;  // a bit per element: ascending order without sorting

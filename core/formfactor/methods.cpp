@@ -14,11 +14,21 @@ bool nothingCanOcclude(const Mesh& mesh) {
 }
 
 std::span<const FormFactorMethodRow> formFactorMethods() {
-  static const std::array<FormFactorMethodRow, 2> table{{
+  static const std::array<FormFactorMethodRow, 4> table{{
       {{"hemicube", "Hemicube",
         "pixels of a hemicube drawn with OpenGL, counted by exact delta form factors; the classic"},
        true,
        makeHemicube,
+       [](const Mesh&) { return std::string(); }},
+      {{"hemicube-visibility", "Hemicube visibility",
+        "exact Lambert factors at the mesh's vertices, times whether a hemicube of the patch sees them"},
+       true,
+       makeHemicubeVisibility,
+       [](const Mesh&) { return std::string(); }},
+      {{"rays", "Rays",
+        "exact Lambert factors at the mesh's vertices, times what shadow rays find visible; no OpenGL"},
+       false,
+       makeRays,
        [](const Mesh&) { return std::string(); }},
       {{"closed-form", "Closed form",
         "exact Lambert factors of polygons; for scenes in which nothing can occlude"},

@@ -47,6 +47,8 @@ struct FormFactorMethodRow {
 std::span<const FormFactorMethodRow> formFactorMethods();
 
 std::unique_ptr<FormFactorMethod> makeHemicube(const FormFactorSetup& setup);
+std::unique_ptr<FormFactorMethod> makeHemicubeVisibility(const FormFactorSetup& setup);
+std::unique_ptr<FormFactorMethod> makeRays(const FormFactorSetup& setup);
 std::unique_ptr<FormFactorMethod> makeClosedForm(const FormFactorSetup& setup);
 
 /// Whether nothing can stand between any two points of the scene's lit sides: every surface has the whole

@@ -12,7 +12,9 @@ namespace {
 
 // Errors are estimated from so many places while the solve runs and when it rests.
 constexpr std::size_t kPlacesInPassing = 128, kPlacesAtRest = 512, kPlacesAtOnce = 64;
-constexpr double kEstimateShare = 0.05;
+// Share of the solver's time that bounds and estimates may take together, with what is left for the last
+// step.
+constexpr double kErrorShare = 0.09;
 // An estimate passes over the whole mesh: on a larger one it would be felt as a pause.
 constexpr std::size_t kMostElementsInPassing = 200'000;
 
@@ -102,6 +104,7 @@ void Lane::again() {
   usable().again();
   history_.reset();
   failure_noted_ = false;
+  error_seconds_ = 0;
   stale_ = estimates_stale_ = true;
   pace_ = {};
 }
@@ -112,8 +115,10 @@ void Lane::completeBounces() {
 }
 
 void Lane::step() {
+  const double before = solve_->errorSeconds();
   try {
     solve_->step();
+    error_seconds_ += solve_->errorSeconds() - before;
     stale_ = estimates_stale_ = true;
     estimateInPassing();
   } catch (...) {
@@ -161,15 +166,17 @@ bool Lane::workOutBounces(double interval) {
   return !hasBounceWork() || due(interval);
 }
 
-// While it runs: as often as a small share of the solve's time allows.
+// While it runs: as often as bounds leave time for it.
 void Lane::estimateInPassing() {
   if (!running() || facts_->elements > kMostElementsInPassing) return;
-  if (estimate_seconds_ > kEstimateShare * solve_->measures().seconds) return;
+  if (error_seconds_ + last_estimate_seconds_ > kErrorShare * solve_->measures().seconds) return;
+  const double began = wallSeconds();
   estimateFrom(solve_->places() < kPlacesInPassing ? kPlacesInPassing / 8 : 0);
+  last_estimate_seconds_ = wallSeconds() - began;
+  error_seconds_ += last_estimate_seconds_;
 }
 
 void Lane::estimateFrom(std::size_t more_places) {
-  const double began = wallSeconds();
   const std::size_t before = solve_->places();
   try {
     solve_->estimate(more_places);
@@ -178,7 +185,6 @@ void Lane::estimateFrom(std::size_t more_places) {
     noteException();
     no_more_places_ = true;
   }
-  estimate_seconds_ += wallSeconds() - began;
   estimates_stale_ = false;
   stale_ = true;  // the snapshot shows where the mesh is worst
 }

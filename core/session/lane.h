@@ -41,6 +41,9 @@ class Lane {
 
   /// One step, after which estimates may be made too.
   void step();
+  /// Wall time that bounds and estimates took while it ran, since it last began with nothing shot: less than
+  /// a tenth of measures().seconds, the bounds as often as they come and estimates with what is left.
+  double errorSeconds() const { return error_seconds_; }
   /// Stops the clocks of the solve until its next step.
   void rest() { solve_->rest(); }
   /// Tells of a solve that has failed, once.
@@ -73,9 +76,9 @@ class Lane {
   std::optional<std::string> broken_;
   bool failure_noted_ = false;  // numerical trouble is told once
   PublishPace pace_;
-  bool stale_ = false;                                       // the solve has gone on since the snapshot
-  bool estimates_stale_ = false;                             // and since the estimates
-  double estimate_seconds_ = 0;                              // spent on them while running
+  bool stale_ = false;            // the solve has gone on since the snapshot
+  bool estimates_stale_ = false;  // and since the estimates
+  double error_seconds_ = 0, last_estimate_seconds_ = 0;
   bool no_more_places_ = false;                              // the scene has none, or estimating failed
   bool complete_bounces_ = false, no_more_bounces_ = false;  // asked for; working them out failed
 

@@ -147,7 +147,7 @@ SessionPhase LiveSolve::phase() const {
 gl::Context& LiveSolve::context() {
   if (!setup_.gl) {
     throw Error(ErrorKind::kEnvironment, "there is no OpenGL context to draw hemicubes with", {},
-                "the form factors 'closed-form'");
+                "the form factors 'rays'");
   }
   setup_.gl->makeCurrent();
   return *setup_.gl;

@@ -60,6 +60,14 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
   if (!unsuited.empty()) {
     out.diagnostics.push_back({Severity::kWarning, "unsuited-method", unsuited, {}, "--form-factors auto"});
   }
+  if (options.hemicube_resolution != 0 && !row.needs_gl) {
+    out.diagnostics.push_back({Severity::kNote,
+                               "unused-resolution",
+                               "the form factors '" + out.form_factors +
+                                   "' take no hemicubes: the resolution asked for them has no effect",
+                               {},
+                               "--form-factors hemicube"});
+  }
   out.mesh_seconds = plan_began - mesh_began;
   out.plan_seconds = wallSeconds() - plan_began;
   return out;

@@ -159,8 +159,12 @@ void Residuals::addReceiver(std::uint64_t number) {
   place.patch = receivers_.shares[receivers_.start[place.receiver]].patch;
   for (std::uint64_t k = 0; k < 2; ++k) {
     if (receivers_.kind == ReceiverKind::kVertices) {
-      place.looks[k] = gatherer_.look(receivers_.position[place.receiver], receivers_.normal[place.receiver],
-                                      mixBits(bits + 2 + k));
+      // From one of its views at random: what it receives is their mean.
+      const std::span<const ReceiverView> views = receivers_.viewsOf(place.receiver);
+      double left = unitInterval(mixBits(bits + 20 + k));
+      std::size_t chosen = 0;
+      while (chosen + 1 < views.size() && left >= views[chosen].weight) left -= views[chosen++].weight;
+      place.looks[k] = gatherer_.look(views[chosen].position, views[chosen].normal, mixBits(bits + 2 + k));
       continue;
     }
     // Each look from a place of its own in the element: its H is a mean.

@@ -27,6 +27,8 @@ struct Measures {
   /// The figure that SolveOptions::error is held against: bounds.upper where there is one, else
   /// bounds.total_upper.
   double solverBound() const { return bounds.upper < kNoBound ? bounds.upper : bounds.total_upper; }
+  /// What the same error is at least; 0 where nothing is known.
+  double solverLowerBound() const { return bounds.upper < kNoBound ? bounds.lower : bounds.total_lower; }
 };
 
 /// A field on a mesh [W/m^2].

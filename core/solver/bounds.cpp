@@ -47,7 +47,11 @@ bool positivePair(F&& multiply, std::vector<glm::dvec3>& v, std::vector<glm::dve
 }  // namespace
 
 ErrorBounds::ErrorBounds(const PatchMatrix& matrix, const RadiosityState& state)
-    : matrix_(matrix), state_(state), counted_(state.patchCount()), norm_(matrix, state) {
+    : matrix_(matrix),
+      state_(state),
+      counted_(state.patchCount()),
+      y_(state.patchCount(), glm::dvec3(0.0)),
+      norm_(matrix, state) {
   for (std::size_t q = 0; q < counted_.size(); ++q) {
     counted_[q] = state.emission()[q] == glm::dvec3(0.0);
     if (counted_[q]) counted_area_ += state.area()[q];
@@ -129,6 +133,12 @@ bool ErrorBounds::lowerTotal() {
   return after < (1 - kGain) * before;
 }
 
+// Each step keeps y <= M^T (1 + y), for M is not negative; patches whose columns are unknown stay at 0.
+void ErrorBounds::raiseTotal() {
+  matrix_.transposed(reflected(countedPlus(y_)), y_);
+  for (glm::dvec3& y : y_) y *= 1 - kRounding;
+}
+
 void ErrorBounds::startComparison() {
   v_.assign(matrix_.size(), glm::dvec3(1.0));
   w_.resize(matrix_.size());
@@ -179,7 +189,9 @@ void ErrorBounds::bracketRadius() {
 }
 
 void ErrorBounds::columnChanged(std::uint32_t q) {
-  if (z_.empty() || !matrix_.knows(q)) return;
+  if (!matrix_.knows(q)) return;
+  if (y_[q] != glm::dvec3(0.0)) std::fill(y_.begin(), y_.end(), glm::dvec3(0.0));
+  if (z_.empty()) return;
   const glm::dvec3 sent = matrix_.transposed(q, reflected(countedPlus(z_))) * (1 + kRounding);
   if (largest(sent - z_[q]) > 0) capTotal();
 }
@@ -196,6 +208,7 @@ bool ErrorBounds::refresh() {
     adapted_ = {};
     nearby_.clear();
   }
+  raiseTotal();
   bool gains = false;
   for (int k = 0; k < kProductsAtOnce; ++k) {
     gains = !z_.empty() && lowerTotal();
@@ -243,9 +256,12 @@ ErrorBounds::Sums ErrorBounds::sumsNow() const {
   for (std::size_t q = 0, n = state_.patchCount(); q < n; ++q) {
     const double area = areas[q];
     const glm::dvec3 size = glm::abs(u[q]);
+    const bool below = least(u[q]) < 0;
+    out.arriving += area * sum((below ? glm::max(u[q], glm::dvec3(0.0)) : u[q]) * y_[q]);
+    out.signs = out.signs || below;
     if (total) {
       out.weighted += area * sum(size * z_[q]);
-      if (least(u[q]) < 0) out.negative += area * sum(glm::max(-u[q], glm::dvec3(0.0)) * z_[q]);
+      if (below) out.negative += area * sum(glm::max(-u[q], glm::dvec3(0.0)) * z_[q]);
     }
     if (compare) {
       out.norm += weights[q] * size * size;
@@ -270,6 +286,12 @@ double ErrorBounds::totalUpper(const Sums& sums) const {
   return truth > 0 ? sums.weighted / truth : kNoBound;
 }
 
+double ErrorBounds::totalLower(const Sums& sums) const {
+  if (sums.signs && z_.empty()) return 0;
+  const double missing = sums.arriving - sums.negative;
+  return missing > 0 && sums.reflected >= 0 ? missing / (sums.reflected + missing) : 0;
+}
+
 // The bound for an RMS error of at most `rms`.
 double ErrorBounds::upperOf(double rms, const Sums& sums) const {
   const double now = rmsOf(sums.reflected_squares);
@@ -280,6 +302,7 @@ SolverBounds ErrorBounds::at() const {
   SolverBounds out;
   const Sums sums = sumsNow();
   out.total_upper = totalUpper(sums);
+  out.total_lower = totalLower(sums);
   if (!comparable()) return out;
   double rms = std::min(rmsOf(sum(sums.factor * sums.factor * compared_.squares)),
                         rmsOf(norm_.squaresAfter(sums.norm)));

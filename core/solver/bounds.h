@@ -5,7 +5,8 @@
 //
 // Total: with weights z >= M^T (1 + z), sum A |e| <= sum A |U| z. M^T is known as far as columns are; what an
 // unknown column could reflect at most stands in its place, so this bound holds from the first shot on. An
-// iteration z <- M^T (1 + z) keeps the inequality and lowers z.
+// iteration z <- M^T (1 + z) keeps the inequality and lowers z. Weights y <= M^T (1 + y), raised from 0 along
+// the columns that are known, bound it from below: sum A e >= sum A max(U, 0) y - sum A max(-U, 0) z.
 //
 // Per patch, once all columns that matter are known: with v > 0 and w = v - M v > 0, |e| <= (v - w) max |U| /
 // w (comparison; Varga, Matrix Iterative Analysis, 3.5). v is near the solution of (I - M) v = 1: the
@@ -30,12 +31,14 @@ inline constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
 struct SolverBounds {
   double total_upper = kNoBound;  ///< sum A |e| / sum A (B* - E) is at most this
+  double total_lower = 0;         ///< and at least this
   double upper = kNoBound;        ///< RMS e / RMS (B* - E) is at most this
   double lower = 0;               ///< and at least this; above 0 only where U >= 0
 
   /// Of two bounds of the same state.
   static SolverBounds tighter(const SolverBounds& a, const SolverBounds& b) {
-    return {std::min(a.total_upper, b.total_upper), std::min(a.upper, b.upper), std::max(a.lower, b.lower)};
+    return {std::min(a.total_upper, b.total_upper), std::max(a.total_lower, b.total_lower),
+            std::min(a.upper, b.upper), std::max(a.lower, b.lower)};
   }
 };
 
@@ -76,6 +79,7 @@ class ErrorBounds {
   void capTotal();
   void startTotal();
   bool lowerTotal();
+  void raiseTotal();
   void startComparison();
   bool lowerComparison();
   void bracketRadius();
@@ -84,11 +88,14 @@ class ErrorBounds {
   // Over patches: what bounds are made of.
   struct Sums {
     double weighted = 0, negative = 0;  // A |U| z, A max(-U, 0) z
+    double arriving = 0;                // A max(U, 0) y
+    bool signs = false;                 // some U < 0
     double reflected = 0, reflected_squares = 0, nearby_squares = 0;
     glm::dvec3 norm{0.0}, factor{0.0}, adapted_factor{0.0};
   };
   Sums sumsNow() const;
   double totalUpper(const Sums& sums) const;
+  double totalLower(const Sums& sums) const;
   double upperOf(double rms, const Sums& sums) const;
   // Of a pair v, w = v - M v > 0: |e| <= (v - w) max |U| / w.
   struct Comparison {
@@ -107,6 +114,7 @@ class ErrorBounds {
   std::uint64_t version_ = 0;                           // of the matrix at the last refresh
   std::uint64_t compared_version_ = ~std::uint64_t{0};  // of the matrix that w_ belongs to
   Field z_;                                             // empty: no bound
+  Field y_;                                             // below z
   Field v_, w_, spectral_;
   Comparison compared_, adapted_;  // of v_ and w_; of the shape of U at the last sharpening
   NormBound norm_;

@@ -20,8 +20,8 @@ struct Place {
 };
 
 // Solves the two rooms at `place`; every vertex and element of the room x > 1 must be 0 at every look.
-void expectDark(const Place& place, std::uint64_t seed) {
-  SolveOptions options = optionsOf("hemicube", 600, 1e-3);
+void expectDark(const FormFactorMethodRow& method, const Place& place, std::uint64_t seed) {
+  SolveOptions options = optionsOf(method.info.key, 600, 1e-3);
   options.seed = seed;
   const auto solve = begun(moved(litAndDarkRoom(), place.turn, place.scale, place.shift), options);
   const Mesh& mesh = solve->mesh();
@@ -62,19 +62,25 @@ void expectDark(const Place& place, std::uint64_t seed) {
   EXPECT_GT(lit, mesh.vertices.size() / 3);
 }
 
-TEST(DarkRoom, StaysExactlyDarkWhateverTheSeed) {
-  for (const std::uint64_t seed : {1u, 2u, 3u}) expectDark({}, seed);
+class DarkRoom : public testing::TestWithParam<FormFactorMethodRow> {};
+
+TEST_P(DarkRoom, StaysExactlyDarkWhateverTheSeed) {
+  for (const std::uint64_t seed : {1u, 2u, 3u}) expectDark(GetParam(), {}, seed);
 }
 
-TEST(DarkRoom, StaysExactlyDarkWhateverTheOrientation) {
+TEST_P(DarkRoom, StaysExactlyDarkWhateverTheOrientation) {
   Dice dice(11);
-  for (int k = 0; k < 4; ++k) expectDark({dice.rotation(), 1, glm::dvec3(0.0)}, 1);
+  for (int k = 0; k < 4; ++k) expectDark(GetParam(), {dice.rotation(), 1, glm::dvec3(0.0)}, 1);
 }
 
-TEST(DarkRoom, StaysExactlyDarkWhateverTheScaleAndPlace) {
+TEST_P(DarkRoom, StaysExactlyDarkWhateverTheScaleAndPlace) {
   Dice dice(12);
-  for (const double scale : {1e-3, 1e4}) expectDark({dice.rotation(), scale, scale * dice.inCube(10)}, 1);
+  for (const double scale : {1e-3, 1e4})
+    expectDark(GetParam(), {dice.rotation(), scale, scale * dice.inCube(10)}, 1);
 }
+
+INSTANTIATE_TEST_SUITE_P(Methods, DarkRoom, testing::ValuesIn(occludingMethods()),
+                         [](const auto& row) { return testName(row.param.info.key); });
 
 }  // namespace
 }  // namespace unshot

@@ -114,6 +114,7 @@ TEST_P(ModesAgree, WithTheDirectSolution) {
       ASSERT_LE(error.rms, b.upper * (1 + 1e-9) + 1e-12) << row.info.key << " step " << step;
       ASSERT_GE(error.rms * (1 + 1e-9) + 1e-12, b.lower) << row.info.key << " step " << step;
       ASSERT_LE(error.total, b.total_upper * (1 + 1e-9) + 1e-12) << row.info.key << " step " << step;
+      ASSERT_GE(error.total * (1 + 1e-9) + 1e-12, b.total_lower) << row.info.key << " step " << step;
       if (error.rms > 1e-7 && b.upper < kNoBound) ratios.push_back(b.upper / error.rms);
       if (error.total > 1e-7 && b.total_upper < kNoBound) total_ratios.push_back(b.total_upper / error.total);
     }

@@ -9,6 +9,7 @@
 #include "bench/drawing_table.h"
 #include "bench/estimate_table.h"
 #include "bench/frame_table.h"
+#include "bench/method_table.h"
 #include "bench/picture_table.h"
 #include "bench/reference_table.h"
 #include "bench/scene_table.h"
@@ -71,7 +72,7 @@ int main(int argc, char** argv) {
           "usage: unshot_bench [--seconds T] [--quick] [--only TABLE]\n"
           "  --seconds T  time for each scene (default 10)\n"
           "  --quick      a short run that only shows that everything works\n"
-          "  --only T     one table: pictures, drawings, scenes, frames, reference or estimates\n"
+          "  --only T     one table: pictures, drawings, methods, scenes, frames, reference or estimates\n"
           "UNSHOT_SCENES names a folder of further scenes, with reference values in its folder truth.\n");
       return 2;
     }
@@ -80,6 +81,7 @@ int main(int argc, char** argv) {
     const auto wanted = [&](const char* table) { return only.empty() || only == table; };
     if (wanted("pictures")) printPictures(quick);
     if (wanted("drawings")) printDrawings(quick);
+    if (wanted("methods")) unshot::bench::printMethodTable(quick);
     if (wanted("scenes")) unshot::bench::printSceneTable(sceneFolders(quick), seconds);
     if (wanted("frames")) printFrames(quick);
     if (wanted("estimates")) unshot::bench::printEstimateTable(quick);

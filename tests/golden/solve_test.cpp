@@ -86,6 +86,17 @@ TEST(Solve, FormFactorsThatDoNotFitAreSaidAndTheResultIsWritten) {
   EXPECT_EQ(same.code, 0) << same.out;
 }
 
+TEST(Solve, AResolutionForNoHemicubesIsSaid) {
+  const TempFolder folder;
+  writeRoom(folder);
+  for (const std::string method : {"rays", "hemicube", "hemicube-visibility"}) {
+    const ProgramResult result = runProgram(
+        folder, {"solve", "room.obj", "--elements", "60", "--hemicube", "32", "--form-factors", method});
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(result.err.find("take no hemicubes") != std::string::npos, method == "rays") << result.err;
+  }
+}
+
 TEST(Solve, TheSameTwiceIsTheSame) {
   const TempFolder folder;
   writeRoom(folder);

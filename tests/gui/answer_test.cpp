@@ -9,6 +9,7 @@
 
 #include "base/clock.h"
 #include "gui/support/screen.h"
+#include "support/temp_folder.h"
 // After gtest, whose names its macros take.
 #include <X11/Xutil.h>
 #include <X11/keysym.h>
@@ -18,10 +19,11 @@ namespace {
 
 using testing_support::eventually;
 using testing_support::Screen;
+using testing_support::TempFolder;
 using testing_support::WindowRun;
 using testing_support::xdotool;
 
-constexpr int kInputs = 24;      // a multiple of four: the help is closed again after every other click
+constexpr int kInputs = 16;      // a multiple of four: the help is closed again after every other click
 constexpr double kLook = 0.001;  // [s], between two looks at the screen: the solver is not to feel them
 constexpr double kRest = 0.2;    // [s], longer than a hint takes to appear
 constexpr double kAim = 0.05;    // [s]
@@ -129,14 +131,27 @@ void print(const std::string& what, const Answers& a) {
   std::fflush(stdout);
 }
 
-class WindowAnswers : public testing::TestWithParam<const char*> {};
+struct Busy {
+  const char* name;
+  const char* elements;
+  const char* rival;  // the mode that it races against; none
+};
+
+class WindowAnswers : public testing::TestWithParam<Busy> {};
 
 // What is shown does not change by itself: the reflectance, the frame round the name of the scene, the button
 // beside it, the help over the scene.
 TEST_P(WindowAnswers, SoonWhileItSolves) {
   const Screen screen;
-  WindowRun run({"--size", "1280x720", "--display", "reflectance", "--elements", GetParam(), "--error",
-                 "1e-9", "--keep", "0"});
+  const TempFolder folder;
+  const std::string elements = GetParam().elements;
+  std::vector<std::string> arguments{"--size", "1280x720", "--display", "reflectance", "--elements",
+                                     elements, "--error",  "1e-9",      "--keep",      "0"};
+  if (GetParam().rival) {
+    const std::string race = std::string("race ") + GetParam().rival + "\n";
+    arguments.insert(arguments.end(), {"--script", folder.write("race.script", race)});
+  }
+  WindowRun run(arguments);
   ASSERT_TRUE(run.hasTitle("cornell_box \u2013 Unshot"));
   Onlooker onlooker(run.window());
   const Area scene{100, 300, 800, 4};  // across edges of walls
@@ -153,7 +168,7 @@ TEST_P(WindowAnswers, SoonWhileItSolves) {
     return std::any_of(pixels.begin(), pixels.end(), [&](char c) { return c != pixels[0]; });
   })) << "no picture of the scene";
 
-  const std::string with = std::string(GetParam()) + " elements, ";
+  const std::string with = elements + " elements" + (GetParam().rival ? " in a race, " : ", ");
   const auto expectSoon = [&](const std::string& what, const std::function<void()>& one,
                               const std::function<void()>& other, const Area& area) {
     Answers found{INFINITY, INFINITY, INFINITY, kInputs};
@@ -189,10 +204,15 @@ TEST_P(WindowAnswers, SoonWhileItSolves) {
 
 // A program with sanitizers is too slow for more.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-INSTANTIATE_TEST_SUITE_P(Gui, WindowAnswers, testing::Values("2000"));
+constexpr Busy kBusy[] = {{"Few", "2000", nullptr}};
 #else
-INSTANTIATE_TEST_SUITE_P(Gui, WindowAnswers, testing::Values("4700", "48000", "490000"));
+constexpr Busy kBusy[] = {{"Few", "4700", nullptr},
+                          {"Many", "48000", nullptr},
+                          {"Most", "490000", nullptr},
+                          {"Race", "48000", "jacobi"}};
 #endif
+INSTANTIATE_TEST_SUITE_P(Gui, WindowAnswers, testing::ValuesIn(kBusy),
+                         [](const auto& row) { return row.param.name; });
 
 }  // namespace
 }  // namespace unshot

@@ -64,6 +64,12 @@ glm::dvec3 centreOf(const Mesh& mesh, std::uint32_t patch) {
 
 class FactorLaws : public testing::TestWithParam<Case> {
  protected:
+  // A row of hemicubes takes one of each patch.
+  std::vector<std::uint32_t> someReceivers(std::uint64_t seed) const {
+    const std::uint32_t count = GetParam().method.info.key == "hemicube-visibility" ? 8 : 40;
+    return someOf(static_cast<std::uint32_t>(receivers_.size()), count, seed);
+  }
+
   Mesh mesh_ = buildMesh(GetParam().scene.make(), {400, {}, false});
   std::unique_ptr<FormFactorMethod> method_ = makeMethod(GetParam().method, mesh_);
   Receivers receivers_ = makeReceivers(mesh_, method_->receiverKind());
@@ -93,7 +99,7 @@ TEST_P(FactorLaws, ColumnsAccountForAllOfAPatchsLight) {
 }
 
 TEST_P(FactorLaws, RowsSumToOne) {
-  for (const std::uint32_t v : someOf(static_cast<std::uint32_t>(receivers_.size()), 40, 2)) {
+  for (const std::uint32_t v : someReceivers(2)) {
     const Row row = method_->row(v);
     double sum = row.escape;
     for (const float k : row.k) {
@@ -101,9 +107,12 @@ TEST_P(FactorLaws, RowsSumToOne) {
       sum += static_cast<double>(k);
     }
     EXPECT_NEAR(sum, 1, 1e-12);
-    EXPECT_GT(row.escape, -1e-6);
+    // Where surfaces occlude, a ray or a few decide about a patch: what they leave open is part of a patch a
+    // row.
+    const double sampled = occludes(GetParam().method) && !GetParam().scene.convex ? 0.04 : 0;
+    EXPECT_GT(row.escape, -1e-6 - sampled);
     if (GetParam().scene.closed) {
-      EXPECT_LT(row.escape, 1e-4) << "receiver " << v;
+      EXPECT_LT(row.escape, 1e-4 + sampled) << "receiver " << v;
     }
   }
 }
@@ -124,22 +133,25 @@ TEST_P(FactorLaws, NothingSeesItself) {
 // pixels.
 TEST_P(FactorLaws, RowsAndColumnsAreTheSameNumbers) {
   const bool exact = method_->receiverKind() == ReceiverKind::kVertices;
-  const auto some = someOf(static_cast<std::uint32_t>(receivers_.size()), 40, 4);
+  const auto some = someReceivers(4);
+  std::vector<std::vector<double>> rows;
+  for (const std::uint32_t v : some) {
+    const Row row = method_->row(v);
+    rows.emplace_back(mesh_.patch_count, 0.0);
+    for (std::size_t i = 0; i < row.source.size(); ++i)
+      rows.back()[row.source[i]] = static_cast<double>(row.k[i]);
+  }
   double difference = 0, total = 0;
   for (const std::uint32_t q : someOf(mesh_.patch_count, 25, 5)) {
     std::vector<double> column(receivers_.size(), 0.0);
     method_->column(q).forEach([&](std::uint32_t v, double k) { column[v] = k; });
-    for (const std::uint32_t v : some) {
-      const Row row = method_->row(v);
-      double k = 0;
-      for (std::size_t i = 0; i < row.source.size(); ++i) {
-        if (row.source[i] == q) k = static_cast<double>(row.k[i]);
-      }
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      const double here = column[some[i]], there = rows[i][q];
       if (exact) {
-        EXPECT_EQ(column[v], k);
+        EXPECT_EQ(here, there);
       }
-      difference += (column[v] - k) * (column[v] - k);
-      total += column[v] * column[v];
+      difference += (here - there) * (here - there);
+      total += here * here;
     }
   }
   measured("relative L2 difference of rows and columns", std::sqrt(difference / total));

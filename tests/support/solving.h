@@ -73,6 +73,17 @@ inline const FormFactorMethodRow& methodRow(std::string_view key) {
   return findChoice(formFactorMethods(), key, "form-factor method");
 }
 
+/// Whether the method knows that surfaces stand between others.
+inline bool occludes(const FormFactorMethodRow& method) { return method.info.key != "closed-form"; }
+
+inline std::vector<FormFactorMethodRow> occludingMethods() {
+  std::vector<FormFactorMethodRow> out;
+  for (const FormFactorMethodRow& row : formFactorMethods()) {
+    if (occludes(row)) out.push_back(row);
+  }
+  return out;
+}
+
 /// For names of parametrised tests, which may hold letters and digits only.
 inline std::string testName(std::string_view key) {
   std::string out;

@@ -58,6 +58,7 @@ struct BoundedRun {
     const double slack = 1e-12;
     const Errors e = errors();
     EXPECT_GE(b.total_upper * (1 + 1e-9) + slack, e.total);
+    EXPECT_LE(b.total_lower * (1 - 1e-9) - slack, e.total);
     EXPECT_GE(b.upper * (1 + 1e-9) + slack, e.rms);
     EXPECT_LE(b.lower * (1 - 1e-9) - slack, e.rms);
   }
@@ -144,6 +145,9 @@ TEST(Bounds, GiveTheTotalErrorExactlyInTheEnd) {
   for (int k = 0; k < 60; ++k) run.bounds.refresh();
   const double bound = run.bounds.at().total_upper, error = run.errors().total;
   EXPECT_GE(bound, error);
+  // 60 bounces at 0.9 leave the weights at most 0.9^60 = 0.2 % of the largest short.
+  EXPECT_GT(run.bounds.at().total_lower, 0.99 * error);
+  EXPECT_LE(run.bounds.at().total_lower, error);
   // relative to the truth from below, so a little above it
   EXPECT_LT(bound, error * 1.1 / (1 - error));
 }

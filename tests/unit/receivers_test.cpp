@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "mesh/build.h"
@@ -52,9 +53,12 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ReceiversOfAScene,
 TEST(VertexReceivers, StandOffEdgesTowardsTheirElements) {
   const Mesh mesh = buildMesh(furnaceScene(0.5, 0.5), {600, {}, false});
   const Receivers receivers = makeReceivers(mesh, ReceiverKind::kVertices);
-  ASSERT_EQ(receivers.position.size(), mesh.vertices.size());
+  ASSERT_EQ(receivers.view_start.size(), mesh.vertices.size() + 1);
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    const glm::dvec3 p = receivers.position[v], vertex(mesh.vertices[v].position);
+    const auto views = receivers.viewsOf(static_cast<std::uint32_t>(v));
+    ASSERT_EQ(views.size(), 1u);
+    EXPECT_NEAR(views[0].weight, 1, 1e-12);
+    const glm::dvec3 p = views[0].position, vertex(mesh.vertices[v].position);
     const Side& side = mesh.sides[mesh.vertices[v].side];
     EXPECT_LT(glm::distance(p, vertex), 2e-3 * mesh.element_size);
     for (int axis = 0; axis < 3; ++axis) {  // strictly inside the cube but for its own wall
@@ -63,6 +67,24 @@ TEST(VertexReceivers, StandOffEdgesTowardsTheirElements) {
       }
     }
   }
+}
+
+TEST(VertexReceivers, LookFromEachSurfaceWhereSurfacesJoinSmoothly) {
+  const Mesh mesh = buildMesh(concentricSpheres(0.5, 1, 0.5, 0, 12), {600, {}, false});
+  const Receivers receivers = makeReceivers(mesh, ReceiverKind::kVertices);
+  std::size_t most = 0;
+  for (std::uint32_t v = 0; v < receivers.size(); ++v) {
+    double weights = 0;
+    for (const ReceiverView& view : receivers.viewsOf(v)) {
+      const Surface& surface = mesh.surfaces[mesh.sides[view.side].surface];
+      EXPECT_NEAR(glm::dot(view.position - surface.origin, surface.normal), 0, 1e-12);
+      EXPECT_EQ(view.normal, mesh.sides[view.side].normal);
+      weights += view.weight;
+    }
+    EXPECT_NEAR(weights, 1, 1e-12);
+    most = std::max(most, receivers.viewsOf(v).size());
+  }
+  EXPECT_GE(most, 4u);
 }
 
 }  // namespace

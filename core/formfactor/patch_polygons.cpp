@@ -1,0 +1,153 @@
+#include "formfactor/patch_polygons.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "formfactor/polygon_factor.h"
+#include "formfactor/regions.h"
+
+namespace unshot {
+namespace {
+
+// Of the scene's diagonal. Surfaces that meet do so to rounding, and a point beside a patch must not see it
+// from above, where it fills half of the view.
+constexpr double kMargin = 1e-6;
+
+// The bits of k in reverse order behind the point (van der Corput).
+double radicalInverse(std::uint32_t k) {
+  std::uint32_t reversed = 0;
+  for (int bit = 0; bit < 32; ++bit) reversed |= ((k >> bit) & 1u) << (31 - bit);
+  return std::ldexp(static_cast<double>(reversed), -32);
+}
+
+}  // namespace
+
+PatchPolygons::PatchPolygons(const Mesh& mesh, const CancelToken& cancel)
+    : patches_(mesh.patch_count), margin_(kMargin * glm::length(mesh.bounds_max - mesh.bounds_min)) {
+  for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
+    cancel.check();
+    collect(mesh, q);
+  }
+}
+
+// A whole rectangle where the patch is one, else the pieces of its elements.
+void PatchPolygons::collect(const Mesh& mesh, std::uint32_t q) {
+  Patch& patch = patches_[q];
+  const Side& side = mesh.sides[mesh.patch_side[q]];
+  const Surface& surface = mesh.surfaces[side.surface];
+  const std::uint32_t local = q - side.first_patch;
+  patch.surface = side.surface;
+  patch.normal = side.normal;
+  const Region region = regionOfPatch(mesh, side.surface, local);
+  const glm::dvec2 size = region.high - region.low;
+  const auto add = [&](Ring ring) {
+    if (side.back) std::reverse(ring.begin(), ring.end());
+    patch.rings.push_back(std::move(ring));
+  };
+  const double rectangle = size.x * size.y;
+  if (std::abs(region.area - rectangle) <= 1e-9 * rectangle &&
+      std::abs(mesh.patch_area[q] - rectangle) <= 1e-9 * rectangle) {
+    patch.rectangle = true;
+    add({surface.point(region.low), surface.point({region.high.x, region.low.y}), surface.point(region.high),
+         surface.point({region.low.x, region.high.y})});
+    enclose(patch);
+    return;
+  }
+  const Node& node = mesh.nodes[mesh.patch_shapes[surface.patches.first + local].node];
+  for (std::uint32_t j = node.v0; j < node.v1; ++j) {
+    for (std::uint32_t i = node.u0; i < node.u1; ++i) {
+      const Range pieces = mesh.cells[surface.first_cell + j * surface.nu + i].pieces;
+      for (std::uint32_t p = pieces.first; p < pieces.end(); ++p) {
+        if (mesh.shapes[surface.elements.first + mesh.pieces[p].element].patch != local) continue;
+        Ring ring;
+        const Range corners = mesh.pieces[p].corners;
+        for (std::uint32_t k = corners.first; k < corners.end(); ++k)
+          ring.push_back(surface.point(mesh.piece_corners[k].uv));
+        add(std::move(ring));
+      }
+    }
+  }
+  enclose(patch);
+}
+
+void PatchPolygons::enclose(Patch& patch) const {
+  glm::dvec3 low = patch.rings[0][0], high = low;
+  for (const Ring& ring : patch.rings) {
+    for (const glm::dvec3& corner : ring) {
+      low = glm::min(low, corner);
+      high = glm::max(high, corner);
+    }
+  }
+  patch.middle = (low + high) / 2.0;
+  for (const Ring& ring : patch.rings) {
+    for (const glm::dvec3& corner : ring)
+      patch.radius = std::max(patch.radius, glm::length(corner - patch.middle));
+  }
+}
+
+double PatchPolygons::factor(std::uint32_t q, const glm::dvec3& point, const glm::dvec3& normal,
+                             std::vector<glm::dvec3>& scratch) const {
+  const Patch& patch = patches_[q];
+  if (glm::dot(patch.normal, point - patch.rings[0][0]) <= margin_) return 0;
+  // The sphere around it first: it needs no pass over the corners.
+  if (glm::dot(normal, patch.middle - point) <= margin_ - patch.radius) return 0;
+  if (glm::dot(normal, highest(q, normal) - point) <= margin_) return 0;
+  double sum = 0;
+  for (const Ring& ring : patch.rings) sum += pointToPolygonFactor(point, normal, ring, scratch);
+  return std::max(sum, 0.0);
+}
+
+const glm::dvec3& PatchPolygons::highest(std::uint32_t q, const glm::dvec3& direction) const {
+  const glm::dvec3* best = nullptr;
+  double most = 0;
+  for (const Ring& ring : patches_[q].rings) {
+    for (const glm::dvec3& corner : ring) {
+      const double height = glm::dot(direction, corner);
+      if (best && height <= most) continue;
+      best = &corner;
+      most = height;
+    }
+  }
+  return *best;
+}
+
+void PatchPolygons::spread(std::uint32_t q, std::uint32_t n, std::vector<glm::dvec3>& out) const {
+  const Patch& patch = patches_[q];
+  out.clear();
+  if (patch.rectangle) {
+    const Ring& ring = patch.rings[0];
+    for (std::uint32_t k = 0; k < n; ++k) {
+      const double u = (k + 0.5) / n, v = radicalInverse(k) + 0.5 / n;
+      out.push_back(ring[0] + u * (ring[1] - ring[0]) + v * (ring[3] - ring[0]));
+    }
+    return;
+  }
+  struct Triangle {
+    glm::dvec3 a, b, c;
+    double until;  // area so far
+  };
+  std::vector<Triangle> triangles;
+  double area = 0;
+  for (const Ring& ring : patch.rings) {
+    for (std::size_t k = 2; k < ring.size(); ++k) {
+      area += glm::length(glm::cross(ring[k - 1] - ring[0], ring[k] - ring[0])) / 2;
+      triangles.push_back({ring[0], ring[k - 1], ring[k], area});
+    }
+  }
+  for (std::uint32_t k = 0; k < n; ++k) {
+    const double at = (k + 0.5) / n * area;
+    auto t = std::lower_bound(triangles.begin(), triangles.end(), at,
+                              [](const Triangle& triangle, double a) { return triangle.until < a; });
+    if (t == triangles.end()) --t;
+    const double before = t == triangles.begin() ? 0 : (t - 1)->until;
+    const double inside = t->until > before ? (at - before) / (t->until - before) : 0.5;
+    // Uniform on a triangle; for the middle of both numbers near its centroid.
+    const double root = std::sqrt(std::clamp(inside, 0.0, 1.0)), v = radicalInverse(k) + 0.5 / n;
+    out.push_back((1 - root) * t->a + root * (1 - v) * t->b + root * v * t->c);
+  }
+}
+
+}  // namespace unshot

@@ -1,0 +1,49 @@
+// The outlines of patches, for factors and points on them.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "base/cancel.h"
+#include "mesh/mesh.h"
+
+namespace unshot {
+
+class PatchPolygons {
+ public:
+  /// Keeps a reference to the mesh, which must outlive it.
+  explicit PatchPolygons(const Mesh& mesh, const CancelToken& cancel = {});
+
+  /// The exact Lambert factor of patch q at a point with this normal (unit length), without occlusion; 0
+  /// where point and patch are in one plane, or the patch below the horizon, but for a millionth of the
+  /// scene's size. `scratch` spares allocations.
+  double factor(std::uint32_t q, const glm::dvec3& point, const glm::dvec3& normal,
+                std::vector<glm::dvec3>& scratch) const;
+  std::uint32_t surface(std::uint32_t q) const { return patches_[q].surface; }
+  /// `n` (a power of two) points of the patch that stand for equal parts of its area, spread so that they
+  /// fall into n different places along each side of a rectangle; for one, its middle.
+  void spread(std::uint32_t q, std::uint32_t n, std::vector<glm::dvec3>& out) const;
+  /// The corner farthest along `direction`.
+  const glm::dvec3& highest(std::uint32_t q, const glm::dvec3& direction) const;
+  /// Middle and radius [m] of a sphere around the patch.
+  const glm::dvec3& middle(std::uint32_t q) const { return patches_[q].middle; }
+  double radius(std::uint32_t q) const { return patches_[q].radius; }
+
+ private:
+  using Ring = std::vector<glm::dvec3>;  // counter-clockwise as seen from the patch's side
+  struct Patch {
+    std::vector<Ring> rings;
+    glm::dvec3 middle{0.0}, normal{0.0};
+    double radius = 0;
+    std::uint32_t surface = 0;
+    bool rectangle = false;
+  };
+  void collect(const Mesh& mesh, std::uint32_t q);
+  void enclose(Patch& patch) const;
+
+  std::vector<Patch> patches_;
+  double margin_ = 0;  // [m]
+};
+
+}  // namespace unshot

@@ -1,0 +1,58 @@
+// Form factors at points: K_vq is the exact Lambert factor of receiver point v and patch q times the share of
+// the patch that v sees, whoever finds that out.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/cancel.h"
+#include "formfactor/method.h"
+#include "formfactor/patch_polygons.h"
+
+namespace unshot {
+
+/// What stands between points and patches.
+class Visibility {
+ public:
+  virtual ~Visibility() = default;
+  /// The share of the patch's Lambert factor that the point sees, 0 to 1; called only where the factor
+  /// without occlusion is above 0.
+  virtual double seen(const ReceiverView& from, std::uint32_t q) = 0;
+  /// The share of patch q's light that meets no surface.
+  virtual double escaping(std::uint32_t q) = 0;
+  // See FormFactorMethod.
+  virtual std::uint64_t drawn() const { return 0; }
+  virtual std::string note() const { return {}; }
+};
+
+class Pointwise final : public FormFactorMethod {
+ public:
+  /// The mesh must outlive it. Without a visibility nothing stands between any two points.
+  Pointwise(const Mesh& mesh, std::shared_ptr<const PatchPolygons> polygons,
+            std::unique_ptr<Visibility> visibility, const CancelToken& cancel);
+
+  ReceiverKind receiverKind() const override { return ReceiverKind::kVertices; }
+  Column column(std::uint32_t q) override;
+  Row row(std::uint32_t v) override;
+  std::uint64_t drawn() const override { return visibility_ ? visibility_->drawn() : 0; }
+  std::string note() const override { return visibility_ ? visibility_->note() : std::string(); }
+
+ private:
+  double factor(std::uint32_t v, std::uint32_t q);
+  double factor(const ReceiverView& from, std::uint32_t q);
+  double escapeOf(std::uint32_t q);
+  double escapeAlongRows(std::uint32_t q);
+  void groupShares();
+
+  const Mesh& mesh_;
+  std::shared_ptr<const PatchPolygons> polygons_;
+  std::unique_ptr<Visibility> visibility_;
+  Receivers receivers_;
+  std::vector<glm::dvec3> scratch_;
+  std::vector<PatchShare> by_patch_;
+  std::vector<std::uint32_t> share_start_;
+  std::vector<double> row_escape_;  // per receiver; below 0: not known yet
+};
+
+}  // namespace unshot
