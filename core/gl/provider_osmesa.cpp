@@ -6,11 +6,6 @@
 #include "base/error.h"
 #include "gl/provider.h"
 
-#if defined(__SANITIZE_ADDRESS__)
-// OSMesa keeps a little of each context to the end; LeakSanitizer is to look at this program's memory.
-extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa\n"; }
-#endif
-
 namespace unshot::gl {
 namespace {
 

@@ -93,10 +93,9 @@ class PanelChoices : public testing::Test {
   static constexpr int kScene = 21, kMode = 125, kMethod = 177, kShow = 577;
 
   void click(int x, int y) {
-    xdotool("mousemove --window " + run_.window() + " " + std::to_string(x) + " " + std::to_string(y));
-    run_.screenshot();  // a frame of the GUI with the mouse there
-    xdotool("click 1");
-    run_.screenshot();
+    xdotool("mousemove --window " + run_.window() + " " + std::to_string(x) + " " + std::to_string(y) +
+            " click 1");
+    run_.screenshot();  // a frame of the GUI after it
   }
   void choose(int y, std::size_t row) {
     click(kLeft + 180, y);

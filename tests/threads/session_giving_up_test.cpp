@@ -6,6 +6,7 @@
 
 #include "mesh/build.h"
 #include "support/dice.h"
+#include "support/sanitized.h"
 #include "support/temp_folder.h"
 #include "threads/session_scenes.h"
 
@@ -15,11 +16,7 @@ namespace {
 using namespace testing_support;
 
 // Sanitizers make loading fifty times slower.
-#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
-constexpr int kSquares = 80;
-#else
-constexpr int kSquares = 250;
-#endif
+constexpr int kSquares = kSanitized ? 80 : 250;
 
 /// A wavy ground of 2 n^2 triangles under a lamp.
 std::string landscape(int n) {
