@@ -8,7 +8,7 @@ namespace unshot {
 namespace {
 
 // Share of the solver's work that goes into bounds beyond the passes over patches that each step has anyway.
-constexpr double kShare = 0.04;
+constexpr double kShare = 0.034;
 // An operation is one entry of the matrix times a colour, some 5 ns. A column of K takes this many to compute
 // (1 to 2 ms; a draft of one picture a quarter of a millisecond), and a shot along one at hand that many for
 // each entry of its patch column (it has as many receivers on a patch, and is summed up on the way).
