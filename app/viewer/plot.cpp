@@ -241,7 +241,8 @@ void LogPlot::drawLine(ImDrawList& list, const std::vector<ImVec2>& curve, ImU32
   if (curve.size() > begin + 1) piece(begin, curve.size());
 }
 
-// Where both ends are known. Without smoothed edges: pieces that touch would show their seams.
+// Down to the bottom where the lower end is 0 or not known. Without smoothed edges: pieces that touch would
+// show their seams.
 void LogPlot::drawBand(ImDrawList& list) const {
   const PlotCurve& second = style_.second;
   if (second.low.size() != second.points.size()) return;
@@ -264,14 +265,15 @@ void LogPlot::drawBand(ImDrawList& list) const {
     ends.clear();
   };
   for (std::size_t i = 0; i < second.points.size(); ++i) {
-    if (!isShown(second.points[i]) || !isShown(second.low[i])) {
+    if (!isShown(second.points[i])) {
       draw();
       continue;
     }
-    const ImVec2 high = pixelOf(second.points[i]), low = pixelOf(second.low[i]);
+    const ImVec2 high = pixelOf(second.points[i]);
+    const float low = isShown(second.low[i]) ? std::min(pixelOf(second.low[i]).y, bottom_) : bottom_;
     if (!ends.empty() && high.x < ends.back().x + 1 && i + 1 < second.points.size()) continue;
     ends.push_back(high);
-    ends.push_back({low.x, std::min(low.y, bottom_)});
+    ends.push_back({high.x, low});
   }
   draw();
 }

@@ -20,7 +20,8 @@ struct PlotCurve {
   const char* label = "";  ///< beside its beginning
   ImVec4 colour{1, 1, 1, 1};
   bool equal = false;  ///< as strong as the first; else fainter, such as a bound of it
-  /// At the same x: the lower end of a band below the curve, where it is positive. None: no band.
+  /// At the same x: the lower end of a band below the curve; 0: the band reaches to the bottom. None: no
+  /// band.
   std::span<const PlotPoint> low = {};
 };
 
