@@ -12,8 +12,8 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
+#include "base/cosine_direction.h"
 #include "base/random.h"
 #include "formfactor/methods.h"
 #include "formfactor/pointwise.h"
@@ -24,7 +24,6 @@ namespace {
 
 // Radius of a patch over its distance, above which it takes 4 or 16 rays.
 constexpr double kWide = 0.4, kVeryWide = 1.2;
-constexpr std::uint32_t kPenumbraRays = 64;
 // The levels of samples: 1, 4, 16, 64.
 constexpr std::size_t kLevels = 4;
 // How far from the corner towards the middle a ray goes that looks for a corner.
@@ -48,17 +47,13 @@ class ShadowRays final : public Visibility {
   double escaping(std::uint32_t q) override {
     const Side& side = mesh_.sides[mesh_.patch_side[q]];
     const std::vector<glm::dvec3>& from = samplesOf(q, 2);
-    const glm::dvec3 across = std::abs(side.normal.x) > 0.7 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-    const glm::dvec3 a = glm::normalize(glm::cross(side.normal, across)), b = glm::cross(side.normal, a);
     std::uint64_t state = mixBits(seed_ ^ q);
     const auto draw = [&] { return unitInterval(state = mixBits(state)); };
     int missed = 0;
     for (int i = 0; i < kEscapeStrata; ++i) {
       for (int j = 0; j < kEscapeStrata; ++j) {
-        const double r = std::sqrt((i + draw()) / kEscapeStrata);
-        const double phi = 2 * std::numbers::pi * (j + draw()) / kEscapeStrata;
-        const glm::dvec3 direction =
-            r * std::cos(phi) * a + r * std::sin(phi) * b + std::sqrt(std::max(0.0, 1 - r * r)) * side.normal;
+        const double u = (i + draw()) / kEscapeStrata, v = (j + draw()) / kEscapeStrata;
+        const glm::dvec3 direction = cosineDirection(side.normal, u, v);
         const std::size_t k = static_cast<std::size_t>(7 * i + j) % from.size();
         missed += !rays_.intersect(rays_.rays().lifted(from[k], side.normal), direction);
       }
@@ -94,7 +89,7 @@ class ShadowRays final : public Visibility {
 
   const std::vector<glm::dvec3>& samplesOf(std::uint32_t q, std::size_t level) {
     std::vector<glm::dvec3>& out = samples_[q][level];
-    if (out.empty()) polygons_->spread(q, level == 3 ? kPenumbraRays : 1u << (2 * level), out);
+    if (out.empty()) polygons_->spread(q, 1u << (2 * level), out);
     return out;
   }
 

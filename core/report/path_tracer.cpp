@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <numbers>
 
+#include "base/cosine_direction.h"
 #include "base/error.h"
 #include "base/random.h"
 
@@ -31,16 +32,6 @@ double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 double powerHeuristic(double own, double other) {
   const double ratio = other / own;
   return 1 / (1 + ratio * ratio);
-}
-
-/// Cosine-distributed about the normal (axes: T. Duff et al., "Building an orthonormal basis, revisited",
-/// JCGT 6(1), 2017).
-glm::dvec3 cosineDirection(const glm::dvec3& n, double u, double v) {
-  const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
-  const glm::dvec3 x(1 + sign * n.x * n.x * a, sign * b, -sign * n.x), y(b, sign + n.y * n.y * a, -n.y);
-  const double radius = std::sqrt(u), angle = 2 * kPi * v;
-  const glm::dvec3 d = radius * std::cos(angle) * x + radius * std::sin(angle) * y + std::sqrt(1 - u) * n;
-  return glm::normalize(d);
 }
 
 class RandomStream {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
+#include "base/cosine_direction.h"
 #include "base/random.h"
 #include "formfactor/polygon_factor.h"
 #include "mesh/grid.h"
@@ -24,13 +24,6 @@ struct Draws {
   std::uint64_t state;
   double next() { return unitInterval(state = mixBits(state)); }
 };
-
-// Two unit vectors across n (Duff et al. 2017).
-void basis(const glm::dvec3& n, glm::dvec3& a, glm::dvec3& b) {
-  const double sign = std::copysign(1.0, n.z), p = -1 / (sign + n.z), q = n.x * n.y * p;
-  a = {1 + sign * n.x * n.x * p, sign * q, -sign * n.x};
-  b = {q, sign + n.y * n.y * p, -n.y};
-}
 
 }  // namespace
 
@@ -54,16 +47,12 @@ std::uint32_t Gatherer::elementOf(std::uint32_t surface, std::uint32_t side,
 Gather Gatherer::look(const glm::dvec3& position, const glm::dvec3& normal, std::uint64_t stream) const {
   Gather out;
   out.rays.reserve(kStrata * kStrata);
-  glm::dvec3 a, b;
-  basis(normal, a, b);
   const glm::dvec3 eye = rays_.rays().lifted(position, normal);
   Draws draws{mixBits(stream)};
   for (int i = 0; i < kStrata; ++i) {
     for (int j = 0; j < kStrata; ++j) {
-      const double r = std::sqrt((i + draws.next()) / kStrata);
-      const double phi = 2 * std::numbers::pi * (j + draws.next()) / kStrata;
-      const glm::dvec3 direction =
-          r * std::cos(phi) * a + r * std::sin(phi) * b + std::sqrt(std::max(0.0, 1 - r * r)) * normal;
+      const double u = (i + draws.next()) / kStrata, v = (j + draws.next()) / kStrata;
+      const glm::dvec3 direction = cosineDirection(normal, u, v);
       const auto hit = rays_.intersect(eye, direction);
       out.rays.push_back(hit && hit->side != kNone ? elementOf(hit->surface, hit->side, hit->at.position)
                                                    : kNone);
