@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
 namespace unshot {
 namespace {
 
-// On an edge the irradiance of two walls meets and Lambert's factor is undefined; a thousandth of the way to
-// the element's centre it has its one-sided limit to three digits.
-constexpr double kInset = 1e-3;
+// On an edge two walls meet and Lambert's factor is undefined, and where a block stands on a floor it changes
+// within a hair's breadth: a vertex stands for what lies around it, so it looks from a tenth of the way into
+// its triangles. Less is nearer to the value on the edge itself, but worse as a corner of the interpolation:
+// on the Cornell box of 600 to 10,000 elements a thousandth gives 5.7 to 0.95 % nRMSE, a tenth 4.7 to 0.91 %.
+constexpr double kInset = 0.1;
 
 void elementReceivers(const Mesh& mesh, Receivers& out, const CancelToken& cancel) {
   for (std::uint32_t e = 0; e < mesh.element_count; ++e) {
@@ -22,12 +25,40 @@ void elementReceivers(const Mesh& mesh, Receivers& out, const CancelToken& cance
   }
 }
 
-// What a vertex has of the elements of one side around it.
+// A display triangle at one of its vertices.
 struct Corner {
   std::uint32_t vertex = 0, side = 0, patch = 0;
   double area = 0;
-  glm::dvec3 toward{0.0};  // the elements' centres from the vertex, times area
+  glm::dvec2 at{0.0}, next{0.0}, last{0.0};  // chart positions of the vertex and of the other two, in turn
+
+  glm::dvec2 inwards() const { return (next + last - 2.0 * at) / 3.0; }  // to the triangle's centroid
 };
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+
+// Whether `inwards` points from the vertex into the triangle.
+bool pointsInto(const Corner& c, const glm::dvec2& inwards) {
+  const double turn = cross(c.next - c.at, c.last - c.at) > 0 ? 1 : -1;
+  return turn * cross(c.next - c.at, inwards) >= 0 && turn * cross(inwards, c.last - c.at) >= 0;
+}
+
+// From a vertex into the triangles around it on one side: to the mean of their centroids or, where a block
+// stands in that direction, to the centroid of the largest.
+glm::dvec2 intoTriangles(std::span<const Corner> corners) {
+  double area = 0;
+  glm::dvec2 sum(0.0);
+  const Corner* largest = &corners[0];
+  for (const Corner& c : corners) {
+    area += c.area;
+    sum += c.area * c.inwards();
+    if (c.area > largest->area) largest = &c;
+  }
+  if (area <= 0) return glm::dvec2(0.0);
+  const glm::dvec2 mean = sum / area;
+  const bool inside = std::any_of(corners.begin(), corners.end(),
+                                  [&](const Corner& c) { return c.area > 0 && pointsInto(c, mean); });
+  return inside ? mean : largest->inwards();
+}
 
 void viewsOfVertices(const Mesh& mesh, std::vector<Corner> corners, Receivers& out,
                      const CancelToken& cancel) {
@@ -35,19 +66,19 @@ void viewsOfVertices(const Mesh& mesh, std::vector<Corner> corners, Receivers& o
     return std::tie(a.vertex, a.side) < std::tie(b.vertex, b.side);
   }));
   out.view_start.assign(mesh.vertices.size() + 1, 0);
-  for (std::size_t k = 0; k < corners.size();) {
-    Corner sum = corners[k];
-    for (++k; k < corners.size() && corners[k].vertex == sum.vertex && corners[k].side == sum.side; ++k) {
-      sum.area += corners[k].area;
-      sum.toward += corners[k].toward;
-    }
-    const Surface& surface = mesh.surfaces[mesh.sides[sum.side].surface];
-    // Vertices are in single precision: onto the surface itself.
-    const glm::dvec3 at = surface.point(surface.chart(glm::dvec3(mesh.vertices[sum.vertex].position)));
-    const double whole = out.area[sum.vertex] * 3;
-    out.views.push_back({sum.area > 0 ? at + kInset / sum.area * sum.toward : at, mesh.sides[sum.side].normal,
-                         whole > 0 ? sum.area / whole : 1, sum.side, sum.patch});
-    ++out.view_start[sum.vertex + 1];
+  for (auto first = corners.begin(); first != corners.end();) {
+    const auto end = std::find_if(first, corners.end(), [&](const Corner& c) {
+      return c.vertex != first->vertex || c.side != first->side;
+    });
+    const double area =
+        std::accumulate(first, end, 0.0, [](double sum, const Corner& c) { return sum + c.area; });
+    const double whole = out.area[first->vertex] * 3;
+    const Side& side = mesh.sides[first->side];
+    const glm::dvec2 at = first->at + kInset * intoTriangles({first, end});
+    out.views.push_back({mesh.surfaces[side.surface].point(at), side.normal, whole > 0 ? area / whole : 1,
+                         first->side, first->patch});
+    ++out.view_start[first->vertex + 1];
+    first = end;
   }
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) out.view_start[v + 1] += out.view_start[v];
 }
@@ -67,12 +98,14 @@ void vertexReceivers(const Mesh& mesh, Receivers& out, const CancelToken& cancel
     const glm::dvec3 p0(mesh.vertices[corner[0]].position), p1(mesh.vertices[corner[1]].position),
         p2(mesh.vertices[corner[2]].position);
     const double area = glm::length(glm::cross(p1 - p0, p2 - p0)) / 2;
-    const ElementShape& shape =
-        mesh.shapes[surface.elements.first + element - mesh.sides[side].first_element];
     for (int k = 0; k < 3; ++k) {
       out.area[corner[k]] += area / 3;
-      const glm::dvec3 vertex = surface.point(surface.chart(glm::dvec3(mesh.vertices[corner[k]].position)));
-      corners.push_back({corner[k], side, mesh.element_patch[element], area, area * (shape.centre - vertex)});
+      // Vertices are in single precision: onto the surface itself.
+      const auto chart = [&](int n) {
+        return surface.chart(glm::dvec3(mesh.vertices[corner[n % 3]].position));
+      };
+      corners.push_back(
+          {corner[k], side, mesh.element_patch[element], area, chart(k), chart(k + 1), chart(k + 2)});
       shares.push_back({mesh.element_patch[element], corner[k], area / 3});
     }
   }
