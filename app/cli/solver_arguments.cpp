@@ -29,6 +29,7 @@ SolverArguments::SolverArguments(Command& command, SolverUse use) {
 
 void SolverArguments::addSolver(Command& command, SolverUse use) {
   const bool with_window = use == SolverUse::kView;
+  options_.soonest = use == SolverUse::kSolve;
   command.group("How to solve");
   const auto modes = iterationModes();
   const auto methods = formFactorMethods();
@@ -62,10 +63,18 @@ void SolverArguments::addSolver(Command& command, SolverUse use) {
 
 void SolverArguments::addMesh(Command& command) {
   command.group("Mesh");
-  command.add("--elements", options_.elements, "N",
-              "Elements over all lit sides, within 10 % (default 10000)", wholeNumber(1, kMostElements));
+  command.add(
+      "--elements", options_.elements, "N",
+      "Elements over all lit sides, within 10 %, all alike (default 10000 where they do not follow the "
+      "light)",
+      wholeNumber(1, kMostElements));
   command.add("--element-size", options_.element_size, "S", "Edge of an element [m]", positiveNumber());
   command.exclude("--elements", "--element-size");
+  command.add("--max-elements", options_.max_elements, "N",
+              "About so many elements at most where they follow the light (default 1000000)",
+              wholeNumber(1, kMostElements));
+  command.exclude("--elements", "--max-elements");
+  command.exclude("--element-size", "--max-elements");
 }
 
 void SolverArguments::addLimits(Command& command) {

@@ -7,9 +7,9 @@ namespace {
 
 std::string stopText(const RunRecord& record, const SolveOptions& options) {
   const std::string& by = record.stopped_by;
-  if (by == "solver_upper") return by + ": the error's bound is below " + percentText(options.error);
+  if (by == "solver_upper") return by + ": the error's bound is below " + percentText(record.solver_target);
   if (by == "solver_total_upper")
-    return by + ": the bound of the total error is below " + percentText(options.error);
+    return by + ": the bound of the total error is below " + percentText(record.solver_target);
   if (by == "max_seconds" && options.max_seconds) return "max_seconds: " + durationText(*options.max_seconds);
   if (by == "max_shots" && options.max_shots) return "max_shots: " + countText(*options.max_shots);
   return by;

@@ -122,7 +122,7 @@ void convergenceSection(Viewer& viewer) {
   const Curves curves = curvesOf(state, axis), rival = state.rival ? curvesOf(*state.rival, axis) : Curves{};
   PlotStyle style;
   style.x_unit = axis == PlotAxis::kSeconds ? "s" : "";
-  style.goal = viewer.ui().options.error;
+  style.goal = state.facts ? state.facts->solver_target : viewer.ui().options.error;
   style.height = 9 * ImGui::GetFontSize();
   // On the curve's first line, whose left half is free.
   const ImVec2 corner = ImGui::GetCursorPos();

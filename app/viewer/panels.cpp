@@ -48,9 +48,8 @@ PhaseLook lookOf(const SessionState& state) {
     case SessionPhase::kLoading:
       return {"Loading", {0.95f, 0.75f, 0.3f, 1}};
     case SessionPhase::kRunning:
-      if (state.measures.drafts > 0 && state.facts &&
-          state.measures.solverBound() <= state.facts->options.error)
-        return {"Refining form factors", {0.98f, 0.72f, 0.25f, 1}};
+      if (state.facts && state.measures.solverBound() <= state.facts->solver_target)
+        return {state.measures.drafts > 0 ? "Refining form factors" : "Sharpening", {0.98f, 0.72f, 0.25f, 1}};
       return {"Shooting", {0.98f, 0.72f, 0.25f, 1}};
     case SessionPhase::kPaused:
       return {"Paused", {0.6f, 0.7f, 0.85f, 1}};

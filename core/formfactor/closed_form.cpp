@@ -10,8 +10,8 @@
 namespace unshot {
 
 std::unique_ptr<FormFactorMethod> makeClosedForm(const FormFactorSetup& setup) {
-  return std::make_unique<Pointwise>(
-      *setup.mesh, std::make_shared<const PatchPolygons>(*setup.mesh, setup.cancel), nullptr, setup.cancel);
+  return std::make_unique<Pointwise>(setup, std::make_shared<const PatchPolygons>(*setup.mesh, setup.cancel),
+                                     nullptr);
 }
 
 }  // namespace unshot

@@ -78,7 +78,7 @@ class Hemicube final : public FormFactorMethod {
   // Cornell box at 10,000 elements the solution of group drafts is 6 % off that of full columns, in a tenth
   // of the time; that of single pictures 1.1 %, in 0.4 of it.
   Column draft(std::uint32_t q, ColumnQuality wanted) override {
-    if (mesh_.sides[mesh_.patch_side[q]].emission != glm::dvec3(0.0)) return shotBy(q, false);
+    if (mesh_.emits(q)) return shotBy(q, false);
     if (wanted == ColumnQuality::kGroup && groups_.members(groups_.of(q)).size() > 1) return shotByGroup(q);
     return shotBy(q, true);
   }

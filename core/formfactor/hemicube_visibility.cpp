@@ -205,7 +205,7 @@ class HemicubeSight final : public Visibility {
 std::unique_ptr<FormFactorMethod> makeHemicubeVisibility(const FormFactorSetup& setup) {
   auto polygons = std::make_shared<const PatchPolygons>(*setup.mesh, setup.cancel);
   auto visibility = std::make_unique<HemicubeSight>(setup, polygons);
-  return std::make_unique<Pointwise>(*setup.mesh, std::move(polygons), std::move(visibility), setup.cancel);
+  return std::make_unique<Pointwise>(setup, std::move(polygons), std::move(visibility));
 }
 
 }  // namespace unshot

@@ -19,7 +19,8 @@ enum class ColumnQuality : std::uint8_t {
 
 /// What patch q sends where. With A the areas, sum_v A_v K_vq / A_q + escape + defect = 1.
 struct Column {
-  std::vector<std::uint32_t> receiver;  ///< ascending; empty where `k` has one value per receiver
+  std::vector<std::uint32_t> receiver;  ///< ascending; empty where `k` has one value per receiver ...
+  std::uint32_t first = 0;              ///< ... from this one on
   std::vector<float> k;                 ///< K_vq
   double escape = 0;                    ///< share of q's light that meets no surface
   double defect = 0;                    ///< share lost (or, negative, gained) by approximation
@@ -30,7 +31,7 @@ struct Column {
   void forEach(F&& f) const {
     for (std::size_t i = 0; i < k.size(); ++i) {
       if (k[i] != 0)
-        f(receiver.empty() ? static_cast<std::uint32_t>(i) : receiver[i], static_cast<double>(k[i]));
+        f(receiver.empty() ? first + static_cast<std::uint32_t>(i) : receiver[i], static_cast<double>(k[i]));
     }
   }
   std::size_t bytes() const {

@@ -33,12 +33,15 @@ struct FormFactorSetup {
   std::uint64_t seed = 1;
   std::uint32_t hemicube_resolution = 0;  ///< pixels; 0: the method's own choice
   HemicubeDrawing hemicube_drawing = HemicubeDrawing::kAuto;
+  /// Of the mesh at its vertices, for methods that have theirs there; null: they make them.
+  std::shared_ptr<const Receivers> receivers = nullptr;
   CancelToken cancel = {};  ///< of setting up
 };
 
 struct FormFactorMethodRow {
   ChoiceInfo info;
   bool needs_gl = false;
+  ReceiverKind receivers = ReceiverKind::kElements;
   std::unique_ptr<FormFactorMethod> (*make)(const FormFactorSetup&);
   /// Empty where the method is right for the scene, else why its result would be wrong there.
   std::string (*unsuited)(const Mesh&);

@@ -6,7 +6,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "formfactor/polygon_factor.h"
 #include "formfactor/regions.h"
 
 namespace unshot {
@@ -27,9 +26,10 @@ double radicalInverse(std::uint32_t k) {
 
 PatchPolygons::PatchPolygons(const Mesh& mesh, const CancelToken& cancel)
     : patches_(mesh.patch_count), margin_(kMargin * glm::length(mesh.bounds_max - mesh.bounds_min)) {
+  // The patches of a refined mesh are those of its base, in fewer pieces.
   for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
     cancel.check();
-    collect(mesh, q);
+    collect(mesh.base ? *mesh.base : mesh, q);
   }
 }
 
@@ -43,9 +43,9 @@ void PatchPolygons::collect(const Mesh& mesh, std::uint32_t q) {
   patch.normal = side.normal;
   const Region region = regionOfPatch(mesh, side.surface, local);
   const glm::dvec2 size = region.high - region.low;
-  const auto add = [&](Ring ring) {
-    if (side.back) std::reverse(ring.begin(), ring.end());
-    patch.rings.push_back(std::move(ring));
+  const auto add = [&](std::vector<glm::dvec3> corners) {
+    if (side.back) std::reverse(corners.begin(), corners.end());
+    patch.parts.emplace_back(std::move(corners));
   };
   const double rectangle = size.x * size.y;
   if (std::abs(region.area - rectangle) <= 1e-9 * rectangle &&
@@ -62,11 +62,11 @@ void PatchPolygons::collect(const Mesh& mesh, std::uint32_t q) {
       const Range pieces = mesh.cells[surface.first_cell + j * surface.nu + i].pieces;
       for (std::uint32_t p = pieces.first; p < pieces.end(); ++p) {
         if (mesh.shapes[surface.elements.first + mesh.pieces[p].element].patch != local) continue;
-        Ring ring;
+        std::vector<glm::dvec3> polygon;
         const Range corners = mesh.pieces[p].corners;
         for (std::uint32_t k = corners.first; k < corners.end(); ++k)
-          ring.push_back(surface.point(mesh.piece_corners[k].uv));
-        add(std::move(ring));
+          polygon.push_back(surface.point(mesh.piece_corners[k].uv));
+        add(std::move(polygon));
       }
     }
   }
@@ -74,37 +74,52 @@ void PatchPolygons::collect(const Mesh& mesh, std::uint32_t q) {
 }
 
 void PatchPolygons::enclose(Patch& patch) const {
-  glm::dvec3 low = patch.rings[0][0], high = low;
-  for (const Ring& ring : patch.rings) {
-    for (const glm::dvec3& corner : ring) {
+  glm::dvec3 low = patch.parts[0].corners()[0], high = low;
+  for (const FactorPolygon& part : patch.parts) {
+    for (const glm::dvec3& corner : part.corners()) {
       low = glm::min(low, corner);
       high = glm::max(high, corner);
     }
   }
   patch.middle = (low + high) / 2.0;
-  for (const Ring& ring : patch.rings) {
-    for (const glm::dvec3& corner : ring)
+  for (const FactorPolygon& part : patch.parts) {
+    for (const glm::dvec3& corner : part.corners())
       patch.radius = std::max(patch.radius, glm::length(corner - patch.middle));
   }
+}
+
+bool PatchPolygons::isSeen(const Patch& patch, std::uint32_t q, const glm::dvec3& point,
+                           const glm::dvec3& normal) const {
+  if (glm::dot(patch.normal, point - patch.parts[0].centre()) <= margin_) return false;
+  // The sphere around it first: it needs no pass over the corners.
+  const double height = glm::dot(normal, patch.middle - point);
+  if (height <= margin_ - patch.radius) return false;
+  return height > margin_ + patch.radius || glm::dot(normal, highest(q, normal) - point) > margin_;
 }
 
 double PatchPolygons::factor(std::uint32_t q, const glm::dvec3& point, const glm::dvec3& normal,
                              std::vector<glm::dvec3>& scratch) const {
   const Patch& patch = patches_[q];
-  if (glm::dot(patch.normal, point - patch.rings[0][0]) <= margin_) return 0;
-  // The sphere around it first: it needs no pass over the corners.
-  if (glm::dot(normal, patch.middle - point) <= margin_ - patch.radius) return 0;
-  if (glm::dot(normal, highest(q, normal) - point) <= margin_) return 0;
+  if (!isSeen(patch, q, point, normal)) return 0;
   double sum = 0;
-  for (const Ring& ring : patch.rings) sum += pointToPolygonFactor(point, normal, ring, scratch);
+  for (const FactorPolygon& part : patch.parts) sum += part.exact(point, normal, scratch);
+  return std::max(sum, 0.0);
+}
+
+double PatchPolygons::quickFactor(std::uint32_t q, const glm::dvec3& point, const glm::dvec3& normal,
+                                  std::vector<glm::dvec3>& scratch) const {
+  const Patch& patch = patches_[q];
+  if (!isSeen(patch, q, point, normal)) return 0;
+  double sum = 0;
+  for (const FactorPolygon& part : patch.parts) sum += part.quick(point, normal, scratch);
   return std::max(sum, 0.0);
 }
 
 const glm::dvec3& PatchPolygons::highest(std::uint32_t q, const glm::dvec3& direction) const {
   const glm::dvec3* best = nullptr;
   double most = 0;
-  for (const Ring& ring : patches_[q].rings) {
-    for (const glm::dvec3& corner : ring) {
+  for (const FactorPolygon& part : patches_[q].parts) {
+    for (const glm::dvec3& corner : part.corners()) {
       const double height = glm::dot(direction, corner);
       if (best && height <= most) continue;
       best = &corner;
@@ -118,7 +133,7 @@ void PatchPolygons::spread(std::uint32_t q, std::uint32_t n, std::vector<glm::dv
   const Patch& patch = patches_[q];
   out.clear();
   if (patch.rectangle) {
-    const Ring& ring = patch.rings[0];
+    const std::vector<glm::dvec3>& ring = patch.parts[0].corners();
     for (std::uint32_t k = 0; k < n; ++k) {
       const double u = (k + 0.5) / n, v = radicalInverse(k) + 0.5 / n;
       out.push_back(ring[0] + u * (ring[1] - ring[0]) + v * (ring[3] - ring[0]));
@@ -131,7 +146,8 @@ void PatchPolygons::spread(std::uint32_t q, std::uint32_t n, std::vector<glm::dv
   };
   std::vector<Triangle> triangles;
   double area = 0;
-  for (const Ring& ring : patch.rings) {
+  for (const FactorPolygon& part : patch.parts) {
+    const std::vector<glm::dvec3>& ring = part.corners();
     for (std::size_t k = 2; k < ring.size(); ++k) {
       area += glm::length(glm::cross(ring[k - 1] - ring[0], ring[k] - ring[0])) / 2;
       triangles.push_back({ring[0], ring[k - 1], ring[k], area});

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/cancel.h"
+#include "formfactor/polygon_factor.h"
 #include "mesh/mesh.h"
 
 namespace unshot {
@@ -20,6 +21,9 @@ class PatchPolygons {
   /// scene's size. `scratch` spares allocations.
   double factor(std::uint32_t q, const glm::dvec3& point, const glm::dvec3& normal,
                 std::vector<glm::dvec3>& scratch) const;
+  /// The same but for FactorPolygon::quick.
+  double quickFactor(std::uint32_t q, const glm::dvec3& point, const glm::dvec3& normal,
+                     std::vector<glm::dvec3>& scratch) const;
   std::uint32_t surface(std::uint32_t q) const { return patches_[q].surface; }
   /// `n` (a power of two) points of the patch that stand for equal parts of its area, spread so that they
   /// fall into n different places along each side of a rectangle; for one, its middle.
@@ -31,9 +35,8 @@ class PatchPolygons {
   double radius(std::uint32_t q) const { return patches_[q].radius; }
 
  private:
-  using Ring = std::vector<glm::dvec3>;  // counter-clockwise as seen from the patch's side
   struct Patch {
-    std::vector<Ring> rings;
+    std::vector<FactorPolygon> parts;
     glm::dvec3 middle{0.0}, normal{0.0};
     double radius = 0;
     std::uint32_t surface = 0;
@@ -41,6 +44,7 @@ class PatchPolygons {
   };
   void collect(const Mesh& mesh, std::uint32_t q);
   void enclose(Patch& patch) const;
+  bool isSeen(const Patch& patch, std::uint32_t q, const glm::dvec3& point, const glm::dvec3& normal) const;
 
   std::vector<Patch> patches_;
   double margin_ = 0;  // [m]

@@ -4,32 +4,39 @@
 
 namespace unshot {
 
-Pointwise::Pointwise(const Mesh& mesh, std::shared_ptr<const PatchPolygons> polygons,
-                     std::unique_ptr<Visibility> visibility, const CancelToken& cancel)
-    : mesh_(mesh),
+Pointwise::Pointwise(const FormFactorSetup& setup, std::shared_ptr<const PatchPolygons> polygons,
+                     std::unique_ptr<Visibility> visibility)
+    : mesh_(*setup.mesh),
       polygons_(std::move(polygons)),
       visibility_(std::move(visibility)),
-      receivers_(makeReceivers(mesh, ReceiverKind::kVertices, cancel)) {}
+      receivers_(setup.receivers ? setup.receivers
+                                 : std::make_shared<const Receivers>(
+                                       makeReceivers(*setup.mesh, ReceiverKind::kVertices, setup.cancel))) {}
 
 double Pointwise::factor(std::uint32_t v, std::uint32_t q) {
   double sum = 0;
-  for (const ReceiverView& view : receivers_.viewsOf(v)) sum += view.weight * factor(view, q);
+  for (const ReceiverView& view : receivers_->viewsOf(v)) sum += view.weight * factor(view, q);
   return sum;
 }
 
 double Pointwise::factor(const ReceiverView& from, std::uint32_t q) {
   if (mesh_.sides[from.side].surface == polygons_->surface(q)) return 0;
-  const double lambert = polygons_->factor(q, from.position, from.normal, scratch_);
-  return lambert == 0 || !visibility_ ? lambert : lambert * visibility_->seen(from, q);
+  // Without occlusion the factors are exact; beside what shadow rays leave open the rest does not show.
+  if (!visibility_) return polygons_->factor(q, from.position, from.normal, scratch_);
+  const double lambert = mesh_.emits(q) ? polygons_->factor(q, from.position, from.normal, scratch_)
+                                        : polygons_->quickFactor(q, from.position, from.normal, scratch_);
+  return lambert == 0 ? 0 : lambert * visibility_->seen(from, q);
 }
 
 Column Pointwise::column(std::uint32_t q) {
   Column out;
-  out.k.resize(receivers_.size());
+  const Range reached = receivers_->reachedBy(mesh_.emits(q));
+  out.first = reached.first;
+  out.k.reserve(reached.count);
   double received = 0;
-  for (std::uint32_t v = 0; v < receivers_.size(); ++v) {
-    out.k[v] = static_cast<float>(factor(v, q));
-    received += static_cast<double>(out.k[v]) * receivers_.area[v];
+  for (std::uint32_t v = reached.first; v < reached.end(); ++v) {
+    out.k.push_back(static_cast<float>(factor(v, q)));
+    received += static_cast<double>(out.k.back()) * receivers_->area[v];
   }
   out.escape = escapeOf(q);
   out.defect = 1 - out.escape - received / mesh_.patch_area[q];
@@ -58,7 +65,7 @@ double Pointwise::escapeOf(std::uint32_t q) {
 // the mean over vertices shows as the column's defect and not as light that escapes.
 double Pointwise::escapeAlongRows(std::uint32_t q) {
   if (share_start_.empty()) groupShares();
-  if (row_escape_.empty()) row_escape_.assign(receivers_.size(), -1.0);
+  if (row_escape_.empty()) row_escape_.assign(receivers_->size(), -1.0);
   double sum = 0;
   for (std::uint32_t k = share_start_[q]; k < share_start_[q + 1]; ++k) {
     const PatchShare& share = by_patch_[k];
@@ -74,7 +81,8 @@ double Pointwise::escapeAlongRows(std::uint32_t q) {
 }
 
 void Pointwise::groupShares() {
-  by_patch_ = receivers_.shares;
+  const auto first = static_cast<std::ptrdiff_t>(receivers_->start[receivers_->base_first]);
+  by_patch_.assign(receivers_->shares.begin() + first, receivers_->shares.end());
   std::stable_sort(by_patch_.begin(), by_patch_.end(),
                    [](const auto& a, const auto& b) { return a.patch < b.patch; });
   share_start_.assign(mesh_.patch_count + 1, 0);

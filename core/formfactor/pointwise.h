@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/cancel.h"
-#include "formfactor/method.h"
+#include "formfactor/methods.h"
 #include "formfactor/patch_polygons.h"
 
 namespace unshot {
@@ -28,9 +28,9 @@ class Visibility {
 
 class Pointwise final : public FormFactorMethod {
  public:
-  /// The mesh must outlive it. Without a visibility nothing stands between any two points.
-  Pointwise(const Mesh& mesh, std::shared_ptr<const PatchPolygons> polygons,
-            std::unique_ptr<Visibility> visibility, const CancelToken& cancel);
+  /// The setup's mesh must outlive it. Without a visibility nothing stands between any two points.
+  Pointwise(const FormFactorSetup& setup, std::shared_ptr<const PatchPolygons> polygons,
+            std::unique_ptr<Visibility> visibility);
 
   ReceiverKind receiverKind() const override { return ReceiverKind::kVertices; }
   Column column(std::uint32_t q) override;
@@ -48,7 +48,7 @@ class Pointwise final : public FormFactorMethod {
   const Mesh& mesh_;
   std::shared_ptr<const PatchPolygons> polygons_;
   std::unique_ptr<Visibility> visibility_;
-  Receivers receivers_;
+  std::shared_ptr<const Receivers> receivers_;
   std::vector<glm::dvec3> scratch_;
   std::vector<PatchShare> by_patch_;
   std::vector<std::uint32_t> share_start_;

@@ -14,4 +14,36 @@ namespace unshot {
 double pointToPolygonFactor(const glm::dvec3& point, const glm::dvec3& normal,
                             std::span<const glm::dvec3> corners, std::vector<glm::dvec3>& scratch);
 
+/// A planar polygon made ready to be looked at from many points.
+class FactorPolygon {
+ public:
+  /// Counter-clockwise as seen from the side that faces the points.
+  explicit FactorPolygon(std::vector<glm::dvec3> corners);
+
+  const std::vector<glm::dvec3>& corners() const { return corners_; }
+  const glm::dvec3& centre() const { return centre_; }  ///< the mean of its corners
+  double radius() const { return radius_; }             ///< of a sphere around the centre [m]
+
+  /// pointToPolygonFactor.
+  double exact(const glm::dvec3& point, const glm::dvec3& normal, std::vector<glm::dvec3>& scratch) const {
+    return pointToPolygonFactor(point, normal, corners_, scratch);
+  }
+  /// The same within 0.2 % and a good deal sooner: from farther away than four radii, and wholly above the
+  /// horizon, as a sum over a few points of the polygon (Gauss's rule on a parallelogram, Hammer and Stroud's
+  /// on a triangle).
+  double quick(const glm::dvec3& point, const glm::dvec3& normal, std::vector<glm::dvec3>& scratch) const;
+
+ private:
+  struct Sample {
+    glm::dvec3 at;
+    double area;
+  };
+  void addTriangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
+
+  std::vector<glm::dvec3> corners_;
+  glm::dvec3 centre_{0.0}, normal_{0.0};
+  double radius_ = 0;
+  std::vector<Sample> samples_;
+};
+
 }  // namespace unshot

@@ -3,8 +3,9 @@
 //
 // As many rays as the patch is wide as seen from the point: one for a distant patch, for the error of the
 // mesh hides what more would show; each weighs by its own kernel, and those that end below the point's
-// horizon are left out. Patches that emit are looked at from end to end: where sixteen rays agree the
-// exact factor counts whole or not at all, else it is the penumbra, with 64 rays.
+// horizon are left out. Patches with a good share of the scene's emission are looked at from end to end:
+// where sixteen rays agree the exact factor counts whole or not at all, else it is the penumbra, with 64
+// rays.
 //
 // Known error: occluders that slip between the rays; a shadow's edge lies where the sample of a patch says,
 // a radius of the patch beside the truth at most.
@@ -15,8 +16,10 @@
 
 #include "base/cosine_direction.h"
 #include "base/random.h"
+#include "formfactor/emitter_share.h"
 #include "formfactor/methods.h"
 #include "formfactor/pointwise.h"
+#include "formfactor/shadow_rays.h"
 #include "mesh/mesh_rays.h"
 
 namespace unshot {
@@ -34,11 +37,15 @@ constexpr int kEscapeStrata = 12;
 class ShadowRays final : public Visibility {
  public:
   ShadowRays(const Mesh& mesh, std::shared_ptr<const PatchPolygons> polygons, std::uint64_t seed)
-      : mesh_(mesh), polygons_(std::move(polygons)), rays_(mesh), seed_(seed), samples_(mesh.patch_count) {}
+      : mesh_(mesh), polygons_(std::move(polygons)), rays_(mesh), seed_(seed), samples_(mesh.patch_count) {
+    const EmitterShare share(mesh);
+    for (std::uint32_t q = 0; q < mesh.patch_count; ++q)
+      large_.push_back(mesh.emits(q) && share.isLarge(mesh.sides[mesh.patch_side[q]], mesh.patch_area[q]));
+  }
 
   double seen(const ReceiverView& from, std::uint32_t q) override {
     const glm::dvec3 eye = rays_.rays().lifted(from.position, from.normal);
-    if (mesh_.sides[mesh_.patch_side[q]].emission != glm::dvec3(0.0)) return emitterSeen(from, eye, q);
+    if (large_[q]) return emitterSeen(from, eye, q);
     const double distance = glm::length(polygons_->middle(q) - from.position);
     const double width = polygons_->radius(q) / std::max(distance, 1e-300);
     return share(from, eye, q, width > kVeryWide ? 2 : width > kWide ? 1 : 0);
@@ -97,15 +104,21 @@ class ShadowRays final : public Visibility {
   std::shared_ptr<const PatchPolygons> polygons_;
   MeshRays rays_;
   std::uint64_t seed_;
+  std::vector<char> large_;  // one per patch: it emits so much that the edges of its shadows show
   std::vector<std::array<std::vector<glm::dvec3>, kLevels>> samples_;
 };
 
 }  // namespace
 
+std::unique_ptr<Visibility> makeShadowRays(const Mesh& mesh, std::shared_ptr<const PatchPolygons> polygons,
+                                           std::uint64_t seed) {
+  return std::make_unique<ShadowRays>(mesh, std::move(polygons), seed);
+}
+
 std::unique_ptr<FormFactorMethod> makeRays(const FormFactorSetup& setup) {
   auto polygons = std::make_shared<const PatchPolygons>(*setup.mesh, setup.cancel);
-  auto visibility = std::make_unique<ShadowRays>(*setup.mesh, polygons, setup.seed);
-  return std::make_unique<Pointwise>(*setup.mesh, std::move(polygons), std::move(visibility), setup.cancel);
+  auto visibility = makeShadowRays(*setup.mesh, polygons, setup.seed);
+  return std::make_unique<Pointwise>(setup, std::move(polygons), std::move(visibility));
 }
 
 }  // namespace unshot

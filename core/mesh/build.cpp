@@ -10,6 +10,7 @@
 #include "mesh/contacts.h"
 #include "mesh/display.h"
 #include "mesh/grid.h"
+#include "mesh/numbering.h"
 #include "mesh/surfaces.h"
 #include "mesh/weld.h"
 
@@ -68,20 +69,25 @@ void makeSides(const Scene& scene, const MeshOptions& options, Mesh& mesh, const
 
 int litSides(const Surface& s) { return (s.side[0] != kNone) + (s.side[1] != kNone); }
 
-std::uint32_t cellsAlong(double extent, double size) {
+// Where `paired`, an even number as soon as it is more than one.
+std::uint32_t cellsAlong(double extent, double size, bool paired) {
   const double n = std::round(extent / size);
-  return n < 1 ? 1u : (n > 1e6 ? 1'000'000u : static_cast<std::uint32_t>(n));
+  if (n < 1) return 1;
+  if (n > 1e6) return 1'000'000;
+  return paired && n > 1 ? 2 * static_cast<std::uint32_t>(std::round(extent / size / 2))
+                         : static_cast<std::uint32_t>(n);
 }
 
-double elementsOf(const Surface& s, double size) {
-  const double cells = static_cast<double>(cellsAlong(s.extent.x, size)) * cellsAlong(s.extent.y, size);
+double elementsOf(const Surface& s, double size, bool paired) {
+  const double cells =
+      static_cast<double>(cellsAlong(s.extent.x, size, paired)) * cellsAlong(s.extent.y, size, paired);
   return litSides(s) * std::max(1.0, cells * s.area / (s.extent.x * s.extent.y));
 }
 
 using Contacts = std::vector<std::vector<ContactSegment>>;
 
-void gridAll(Mesh& mesh, const std::vector<double>& sizes, const Contacts& contacts, double tolerance,
-             const CancelToken& cancel) {
+void gridAll(Mesh& mesh, const std::vector<double>& sizes, bool paired, const Contacts& contacts,
+             double tolerance, const CancelToken& cancel) {
   mesh.cells.clear();
   mesh.pieces.clear();
   mesh.piece_corners.clear();
@@ -89,20 +95,21 @@ void gridAll(Mesh& mesh, const std::vector<double>& sizes, const Contacts& conta
   mesh.patch_shapes.clear();
   mesh.shapes.clear();
   double elements = 0;
-  for (std::size_t s = 0; s < sizes.size(); ++s) elements += elementsOf(mesh.surfaces[s], sizes[s]);
+  for (std::size_t s = 0; s < sizes.size(); ++s) elements += elementsOf(mesh.surfaces[s], sizes[s], paired);
   if (elements > static_cast<double>(kMostElements)) {
     throw Error(ErrorKind::kUsage,
                 "the mesh would have about " + std::to_string(static_cast<std::uint64_t>(elements)) +
                     " elements; the most is " + std::to_string(kMostElements),
                 {}, "a larger --element-size, or --elements");
   }
-  const std::uint32_t patch_cells = patchCells(elements);
+  const std::uint32_t patch_cells = paired ? 2 : patchCells(elements);
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
     Surface& surface = mesh.surfaces[s];
     cancel.check();
     if (litSides(surface) == 0) continue;
-    gridSurface(mesh, s, cellsAlong(surface.extent.x, sizes[s]), cellsAlong(surface.extent.y, sizes[s]),
-                patch_cells, contacts[s], tolerance, cancel);
+    gridSurface(mesh, s, cellsAlong(surface.extent.x, sizes[s], paired),
+                cellsAlong(surface.extent.y, sizes[s], paired), patch_cells, paired, contacts[s], tolerance,
+                cancel);
   }
 }
 
@@ -114,11 +121,11 @@ double countElements(const Mesh& mesh) {
 
 // Sizes per surface whose estimated count is nearest to `wanted`: one size for all, but for the few surfaces
 // that tip from one whole number of cells to the next just there.
-std::vector<double> sizesFor(const Mesh& mesh, double wanted, const CancelToken& cancel) {
+std::vector<double> sizesFor(const Mesh& mesh, double wanted, bool paired, const CancelToken& cancel) {
   const auto estimate = [&](double size) {
     cancel.check();
     double sum = 0;
-    for (const Surface& s : mesh.surfaces) sum += elementsOf(s, size);
+    for (const Surface& s : mesh.surfaces) sum += elementsOf(s, size, paired);
     return sum;
   };
   double coarse = 2 * glm::length(mesh.bounds_max - mesh.bounds_min), fine = coarse;
@@ -130,7 +137,8 @@ std::vector<double> sizesFor(const Mesh& mesh, double wanted, const CancelToken&
   std::vector<double> sizes(mesh.surfaces.size(), coarse);
   double sum = estimate(coarse);
   for (std::size_t s = 0; s < sizes.size(); ++s) {
-    const double step = elementsOf(mesh.surfaces[s], fine) - elementsOf(mesh.surfaces[s], coarse);
+    const double step =
+        elementsOf(mesh.surfaces[s], fine, paired) - elementsOf(mesh.surfaces[s], coarse, paired);
     if (std::abs(sum + step - wanted) > std::abs(sum - wanted)) continue;
     sizes[s] = fine;
     sum += step;
@@ -149,14 +157,14 @@ void sayCount(Mesh& mesh, double wanted) {
        {}});
 }
 
-void gridForCount(Mesh& mesh, double wanted, const Contacts& contacts, double tolerance,
+void gridForCount(Mesh& mesh, double wanted, bool paired, const Contacts& contacts, double tolerance,
                   const CancelToken& cancel) {
   double least = 0;
   for (const Surface& s : mesh.surfaces) least += litSides(s);
   // More sides than elements asked for: large surfaces are still cut as finely as the number says by area.
   if (least > 0.9 * wanted) {
-    gridAll(mesh, std::vector<double>(mesh.surfaces.size(), std::sqrt(mesh.lit_area / wanted)), contacts,
-            tolerance, cancel);
+    gridAll(mesh, std::vector<double>(mesh.surfaces.size(), std::sqrt(mesh.lit_area / wanted)), paired,
+            contacts, tolerance, cancel);
     sayCount(mesh, wanted);
     return;
   }
@@ -165,8 +173,8 @@ void gridForCount(Mesh& mesh, double wanted, const Contacts& contacts, double to
   // Clipped and joined cells make the count differ from the estimate by some percent; a few corrections close
   // the gap.
   for (int attempt = 0; attempt < 6; ++attempt) {
-    const std::vector<double> sizes = sizesFor(mesh, asked, cancel);
-    gridAll(mesh, sizes, contacts, tolerance, cancel);
+    const std::vector<double> sizes = sizesFor(mesh, asked, paired, cancel);
+    gridAll(mesh, sizes, paired, contacts, tolerance, cancel);
     const double error = std::abs(countElements(mesh) / wanted - 1);
     if (error < best_error) {
       best_error = error;
@@ -176,29 +184,8 @@ void gridForCount(Mesh& mesh, double wanted, const Contacts& contacts, double to
     asked *= wanted / countElements(mesh);
   }
   if (std::abs(countElements(mesh) / wanted - 1) > best_error)
-    gridAll(mesh, best, contacts, tolerance, cancel);
+    gridAll(mesh, best, paired, contacts, tolerance, cancel);
   if (best_error > 0.1) sayCount(mesh, wanted);
-}
-
-void numberElements(Mesh& mesh, const CancelToken& cancel) {
-  for (std::uint32_t k = 0; k < mesh.sides.size(); ++k) {
-    cancel.check();
-    Side& side = mesh.sides[k];
-    const Surface& surface = mesh.surfaces[side.surface];
-    side.first_element = mesh.element_count;
-    side.first_patch = mesh.patch_count;
-    mesh.element_count += surface.elements.count;
-    mesh.patch_count += surface.patches.count;
-    mesh.patch_side.resize(mesh.patch_count, k);
-    mesh.patch_area.resize(mesh.patch_count, 0.0);
-    for (std::uint32_t e = 0; e < surface.elements.count; ++e) {
-      const ElementShape& shape = mesh.shapes[surface.elements.first + e];
-      mesh.element_side.push_back(k);
-      mesh.element_area.push_back(shape.area);
-      mesh.element_patch.push_back(side.first_patch + shape.patch);
-      mesh.patch_area[side.first_patch + shape.patch] += shape.area;
-    }
-  }
 }
 
 // Vertices, areas of elements and what is made of them are written in single precision, which ends near 1e38
@@ -229,28 +216,30 @@ Mesh buildMesh(const Scene& scene, const MeshOptions& options, const CancelToken
   mesh.bounds_min = scene.bounds_min;
   mesh.bounds_max = scene.bounds_max;
   mesh.materials = scene.materials;
-  const SurfaceTopology topology = makeSurfaces(scene, weld(scene, cancel), mesh, cancel);
+  SurfaceTopology topology = makeSurfaces(scene, weld(scene, cancel), mesh, cancel);
+  mesh.smooth_pairs = std::move(topology.smooth_pairs);
   if (mesh.surfaces.empty()) {
     throw Error(ErrorKind::kInput, "no face of the scene has any area", scene.path.string(),
                 "unshot check on the scene");
   }
   sayExtremeSize(mesh, scene);
   makeSides(scene, options, mesh, cancel);
-  const double tolerance = weldDistance(scene);
+  const double tolerance = mesh.weld_distance = weldDistance(scene);
   cancel.check();
   const Contacts contacts = findContacts(mesh, topology.edges, 2 * tolerance, cancel);
   if (options.elements) {
-    gridForCount(mesh, static_cast<double>(*options.elements), contacts, tolerance, cancel);
+    gridForCount(mesh, static_cast<double>(*options.elements), options.paired_cells, contacts, tolerance,
+                 cancel);
   } else {
     const double size =
         options.element_size.value_or(std::sqrt(mesh.lit_area / static_cast<double>(kDefaultElements)));
     if (!mesh.sides.empty()) {
-      gridAll(mesh, std::vector<double>(mesh.surfaces.size(), size), contacts, tolerance, cancel);
+      gridAll(mesh, std::vector<double>(mesh.surfaces.size(), size), options.paired_cells, contacts,
+              tolerance, cancel);
     }
   }
   numberElements(mesh, cancel);
-  if (mesh.element_count > 0) mesh.element_size = std::sqrt(mesh.lit_area / mesh.element_count);
-  makeDisplay(mesh, topology.smooth_pairs, tolerance, cancel);
+  makeDisplay(mesh, cancel);
   return mesh;
 }
 

@@ -15,6 +15,9 @@ struct MeshOptions {
   std::optional<double>
       element_size;  ///< [m]; without both, the size that would cut the lit area into 10,000 squares
   bool emit_front_only = false;
+  /// Patches of two by two cells, over which light is taken to be quadratic, not of as many as give about a
+  /// thousand patches: for meshes that are refined afterwards.
+  bool paired_cells = false;
 };
 
 inline constexpr std::uint64_t kDefaultElements = 10'000;

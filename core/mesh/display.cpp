@@ -20,8 +20,8 @@ namespace {
 
 class DisplayMaker {
  public:
-  DisplayMaker(Mesh& mesh, std::span<const SmoothPair> pairs, double distance, const CancelToken& cancel)
-      : mesh_(mesh), pairs_(pairs), distance_(distance), cancel_(cancel) {}
+  DisplayMaker(Mesh& mesh, const CancelToken& cancel)
+      : mesh_(mesh), distance_(mesh.weld_distance), cancel_(cancel) {}
 
   void run() {
     findPoints();
@@ -171,7 +171,7 @@ class DisplayMaker {
   // back.
   void joinCorners(const std::vector<PieceEdge>& edges) {
     std::set<std::tuple<std::uint32_t, std::uint32_t, bool>> smooth;
-    for (const SmoothPair& pair : pairs_)
+    for (const SmoothPair& pair : mesh_.smooth_pairs)
       smooth.emplace(std::min(pair.a, pair.b), std::max(pair.a, pair.b), pair.flipped);
     group_.resize(2 * ring_.size());
     std::iota(group_.begin(), group_.end(), 0u);
@@ -375,7 +375,6 @@ class DisplayMaker {
   }
 
   Mesh& mesh_;
-  std::span<const SmoothPair> pairs_;
   double distance_;
   const CancelToken& cancel_;
   std::vector<std::uint32_t> piece_surface_;  // per piece
@@ -389,9 +388,6 @@ class DisplayMaker {
 
 }  // namespace
 
-void makeDisplay(Mesh& mesh, std::span<const SmoothPair> smooth_pairs, double weld_distance,
-                 const CancelToken& cancel) {
-  DisplayMaker(mesh, smooth_pairs, weld_distance, cancel).run();
-}
+void makeDisplay(Mesh& mesh, const CancelToken& cancel) { DisplayMaker(mesh, cancel).run(); }
 
 }  // namespace unshot

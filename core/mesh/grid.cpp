@@ -26,12 +26,13 @@ class Groups {  // union-find
 
 class SurfaceGrid {
  public:
-  SurfaceGrid(Mesh& mesh, std::uint32_t surface, std::uint32_t patch_cells,
+  SurfaceGrid(Mesh& mesh, std::uint32_t surface, std::uint32_t patch_cells, bool paired,
               const std::vector<ContactSegment>& contacts, double tolerance, const CancelToken& cancel)
       : mesh_(mesh),
         surface_index_(surface),
         surface_(mesh.surfaces[surface]),
         patch_cells_(patch_cells),
+        paired_(paired),
         contacts_(contacts),
         tolerance_(tolerance),
         cancel_(cancel) {}
@@ -239,6 +240,10 @@ class SurfaceGrid {
     grow(surface_.root, kNone);
   }
 
+  std::uint32_t halfOf(std::uint32_t cells) const {
+    return paired_ && cells > 2 ? 2 * ((cells + 2) / 4) : cells / 2;
+  }
+
   // Children halve a node along both sides, or along the longer one where it is at least twice the other.
   void grow(std::uint32_t index, std::uint32_t patch_node) {
     cancel_.check();
@@ -254,8 +259,8 @@ class SurfaceGrid {
     const double size_u = wide * du_, size_v = high * dv_;
     const bool split_u = wide > 1 && (high == 1 || size_u * 2 > size_v);
     const bool split_v = high > 1 && (wide == 1 || size_v * 2 > size_u);
-    const std::uint32_t mid_u = split_u ? node.u0 + wide / 2 : node.u1;
-    const std::uint32_t mid_v = split_v ? node.v0 + high / 2 : node.v1;
+    const std::uint32_t mid_u = split_u ? node.u0 + halfOf(wide) : node.u1;
+    const std::uint32_t mid_v = split_v ? node.v0 + halfOf(high) : node.v1;
     const auto first = static_cast<std::uint32_t>(mesh_.nodes.size());
     for (int q = 0; q < 4; ++q) {
       Node child = node;
@@ -325,6 +330,7 @@ class SurfaceGrid {
   std::uint32_t surface_index_;
   Surface& surface_;
   std::uint32_t patch_cells_;
+  bool paired_;
   const std::vector<ContactSegment>& contacts_;
   double tolerance_;
   const CancelToken& cancel_;
@@ -338,9 +344,9 @@ class SurfaceGrid {
 }  // namespace
 
 void gridSurface(Mesh& mesh, std::uint32_t surface, std::uint32_t nu, std::uint32_t nv,
-                 std::uint32_t patch_cells, const std::vector<ContactSegment>& contacts, double tolerance,
-                 const CancelToken& cancel) {
-  SurfaceGrid(mesh, surface, patch_cells, contacts, tolerance, cancel).run(nu, nv);
+                 std::uint32_t patch_cells, bool paired, const std::vector<ContactSegment>& contacts,
+                 double tolerance, const CancelToken& cancel) {
+  SurfaceGrid(mesh, surface, patch_cells, paired, contacts, tolerance, cancel).run(nu, nv);
 }
 
 std::uint32_t elementAt(const Mesh& mesh, const Surface& s, const glm::dvec2& uv, double margin) {

@@ -16,10 +16,11 @@ inline constexpr double kSliverShare = 0.4;
 
 /// Fills surface.nu, nv, cut, first_cell, root, elements and patches, appending to cells, pieces,
 /// piece_corners, nodes, patch_shapes and shapes of the mesh. A patch spans at most patch_cells x patch_cells
-/// cells. `tolerance` [m]: what is nearer than this to a contact lies on it.
+/// cells; where `paired`, nodes are halved between pairs of cells. `tolerance` [m]: what is nearer than this
+/// to a contact lies on it.
 void gridSurface(Mesh& mesh, std::uint32_t surface, std::uint32_t nu, std::uint32_t nv,
-                 std::uint32_t patch_cells, const std::vector<ContactSegment>& contacts, double tolerance,
-                 const CancelToken& cancel = {});
+                 std::uint32_t patch_cells, bool paired, const std::vector<ContactSegment>& contacts,
+                 double tolerance, const CancelToken& cancel = {});
 
 /// The cell (its index in Mesh::cells) at chart position uv, clamped to the grid.
 inline std::uint32_t cellAt(const Surface& s, const glm::dvec2& uv) {

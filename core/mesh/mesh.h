@@ -13,6 +13,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <vector>
 
 #include "base/diagnostic.h"
@@ -127,6 +128,13 @@ struct SparseRows {
   std::size_t size() const { return start.size() - 1; }
 };
 
+/// Two surfaces that meet smoothly along an edge, so that vertices on it are shared. `flipped`: their
+/// windings disagree, the front of one continues in the back of the other.
+struct SmoothPair {
+  std::uint32_t a = 0, b = 0;
+  bool flipped = false;
+};
+
 struct Mesh {
   // The scene it belongs to, as far as drawing and transport need it.
   glm::dvec3 frame_origin{0.0};
@@ -162,6 +170,18 @@ struct Mesh {
   std::vector<std::uint32_t> triangle_vertices;  ///< three per triangle
   std::vector<std::uint32_t> triangle_element;   ///< one per triangle
   SparseRows vertex_from_elements;               ///< interpolation: one row per vertex, weights sum to 1
+
+  /// The uniform mesh that this one refines (mesh/refine.h): surfaces, sides, patches and their numbers are
+  /// the same. Null where it is one itself.
+  std::shared_ptr<const Mesh> base;
+  std::vector<std::uint32_t>
+      element_from_base;        ///< the base's element that each is a part of; none without base
+  SparseRows vertex_from_base;  ///< interpolation from base->vertices: a row per vertex; none without base
+
+  std::vector<SmoothPair> smooth_pairs;
+  double weld_distance = 0;  ///< points closer than this are one [m]
+  /// Whether patch q is an emitter.
+  bool emits(std::uint32_t q) const { return sides[patch_side[q]].emission != glm::dvec3(0.0); }
 
   double element_size = 0;  ///< edge of a full cell aimed at [m]
   double lit_area = 0;      ///< over sides [m^2]

@@ -9,13 +9,6 @@
 
 namespace unshot {
 
-/// Two surfaces that meet smoothly along an edge, so that vertices on it are shared. `flipped`: their
-/// windings disagree, the front of one continues in the back of the other.
-struct SmoothPair {
-  std::uint32_t a = 0, b = 0;
-  bool flipped = false;
-};
-
 /// An edge of a polygon of the scene and the surface it belongs to; an edge of n polygons stands n times.
 struct SurfaceEdge {
   std::uint32_t a = 0, b = 0;  ///< in Mesh::positions

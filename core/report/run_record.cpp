@@ -14,6 +14,7 @@ RunRecord recordOf(const Solve& solve) {
   record.plan = solve.plan();
   record.mode = solve.modeKey();
   record.form_factors = solve.formFactorsKey();
+  record.solver_target = solve.solverTarget();
   record.measures = solve.measures();
   record.counts = {mesh.surfaces.size(), mesh.patch_count,      mesh.element_count, mesh.vertices.size(),
                    record.measures.rows, record.measures.shots, solve.drawn()};

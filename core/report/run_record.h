@@ -41,6 +41,7 @@ struct RunRecord {
   std::optional<GlRecord> gl;  ///< nothing where no GL was needed
   Counts counts;
   PhaseSeconds seconds;
+  double solver_target = 0;  ///< Solve::solverTarget
   Measures measures;
   ErrorEstimates estimates;
   EnergyBalance energy;

@@ -112,11 +112,11 @@ const SolverBounds& ErrorBudget::sharpen() {
   return now_;
 }
 
-const ErrorEstimates& ErrorBudget::estimate(std::size_t more_places) {
+const ErrorEstimates& ErrorBudget::estimate(std::size_t more_places, const std::vector<glm::dvec3>& shown) {
   const Timed timed(seconds_);
   if (!residuals_) residuals_.emplace(mesh_, transport_.receivers(), seed_);
   residuals_->add(more_places);
-  estimates_ = residuals_->estimate(state_, matrix_);
+  estimates_ = residuals_->estimate(state_, matrix_, shown);
   if (defects_version_ != matrix_.version()) {
     defects_ = matrix_.defects();
     defects_version_ = matrix_.version();
@@ -125,8 +125,9 @@ const ErrorEstimates& ErrorBudget::estimate(std::size_t more_places) {
   return estimates_;
 }
 
-std::vector<double> ErrorBudget::patchResiduals() const {
-  return residuals_ && residuals_->places() > 0 ? residuals_->patchResiduals(state_) : std::vector<double>();
+std::vector<double> ErrorBudget::patchResiduals(const std::vector<glm::dvec3>& shown) const {
+  return residuals_ && residuals_->places() > 0 ? residuals_->patchResiduals(state_, shown)
+                                                : std::vector<double>();
 }
 
 }  // namespace unshot

@@ -44,19 +44,24 @@ std::vector<glm::vec3> meanOverElements(const Mesh& mesh, const std::vector<glm:
 MeshField makeField(const Mesh& mesh, const Receivers& receivers, const std::vector<glm::dvec3>& values) {
   if (receivers.kind == ReceiverKind::kElements)
     return {atVertices(mesh, [&](std::uint32_t e) { return values[e]; }), {values.begin(), values.end()}};
-  return {{values.begin(), values.end()}, meanOverElements(mesh, values)};
+  if (!receivers.layered()) return {{values.begin(), values.end()}, meanOverElements(mesh, values)};
+  std::vector<glm::dvec3> shown;
+  shown.reserve(receivers.shownCount());
+  for (std::uint32_t v = 0; v < receivers.shownCount(); ++v) shown.push_back(receivers.shown(v, values));
+  return {{shown.begin(), shown.end()}, meanOverElements(mesh, shown)};
 }
 
 std::vector<glm::vec3> fieldOfPatches(const Mesh& mesh, const std::vector<glm::dvec3>& values) {
   return atVertices(mesh, [&](std::uint32_t e) { return values[mesh.element_patch[e]]; });
 }
 
-Snapshot makeFields(std::shared_ptr<const Mesh> mesh_in, const Transport& transport,
-                    const RadiosityState& state, const AmbientTerm& ambient) {
+Snapshot makeFields(std::shared_ptr<const Mesh> mesh_in, const Receivers& receivers,
+                    const std::vector<glm::dvec3>& irradiance, const RadiosityState& state,
+                    const AmbientTerm& ambient) {
   Snapshot out;
   out.mesh = std::move(mesh_in);
   const Mesh& mesh = *out.mesh;
-  MeshField received = makeField(mesh, transport.receivers(), state.irradiance());
+  MeshField received = makeField(mesh, receivers, irradiance);
   out.irradiance = std::move(received.vertices);
   out.element_irradiance = std::move(received.elements);
   const std::vector<glm::dvec3> estimate = ambient.values(state);

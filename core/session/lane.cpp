@@ -52,6 +52,7 @@ void Lane::learnFacts(SolveOptions asked, double load_seconds) {
   facts->options = std::move(asked);
   facts->options.mode = solve_->options().mode;
   facts->options.error = solve_->options().error;
+  facts->solver_target = solve_->solverTarget();
   facts->mode = solve_->modeKey();
   facts->form_factors = solve_->formFactorsKey();
   facts->plan = solve_->plan();

@@ -1,8 +1,13 @@
 #include "session/plan.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/clock.h"
+#include "base/text.h"
 #include "formfactor/methods.h"
 #include "mesh/build.h"
+#include "session/light_refinement.h"
 
 namespace unshot {
 
@@ -41,18 +46,96 @@ std::vector<PlanDecision> makePlan(const Scene& scene, const Mesh& mesh, const s
   return out;
 }
 
+namespace {
+
+// Elements of the uniform mesh that is refined, for an error of 1 %: on the Cornell box the whole error then
+// is about as large (unshot_bench --only methods).
+constexpr double kBaseElements = 2'500;
+// The error falls with so much of a power of their number.
+constexpr double kOrder = 0.75;
+// Rays take a look from each vertex at each patch, hemicubes a picture of each patch and no more. So many
+// looks are some ten seconds: the teapot in its box, 4e8 of them, is sooner by hemicubes, two_rooms, 2e7, by
+// rays.
+constexpr double kMostLooks = 1e8;
+
+bool atVertices(const std::string& method) {
+  return findChoice(formFactorMethods(), method, "form-factor method").receivers == ReceiverKind::kVertices;
+}
+
+bool finenessGiven(const SolveOptions& options) { return options.elements || options.element_size; }
+
+std::shared_ptr<const Mesh> uniformMesh(const Scene& scene, const SolveOptions& options,
+                                        const CancelToken& cancel) {
+  return std::make_shared<const Mesh>(
+      buildMesh(scene, {options.elements, options.element_size, options.emit_front_only, false}, cancel));
+}
+
+// The mesh to be refined, of as many elements as the error asks for.
+std::shared_ptr<const Mesh> baseMesh(const Scene& scene, const SolveOptions& options,
+                                     const CancelToken& cancel) {
+  const double wanted = kBaseElements * std::pow(0.01 / options.error, 1 / kOrder);
+  const auto elements = static_cast<std::uint64_t>(
+      std::min(std::clamp(wanted, 100.0, 100'000.0), static_cast<double>(options.max_elements)));
+  Mesh mesh = buildMesh(scene, {elements, {}, options.emit_front_only, true}, cancel);
+  std::erase_if(mesh.diagnostics, [](const Diagnostic& d) { return d.code == "element-count"; });
+  return std::make_shared<const Mesh>(std::move(mesh));
+}
+
+std::shared_ptr<const Mesh> refined(std::shared_ptr<const Mesh> base, const SolveOptions& options,
+                                    const std::string& method, std::vector<PlanDecision>& plan,
+                                    const CancelToken& cancel) {
+  LightRefinement refinement;
+  refinement.error = options.error;
+  refinement.most_elements = options.max_elements;
+  refinement.occlusion = method != "closed-form";
+  refinement.seed = options.seed;
+  std::shared_ptr<const Mesh> mesh = refineForLight(std::move(base), refinement, cancel);
+  if (!mesh->base) return mesh;
+  // As fine everywhere as one in twenty elements: slivers, which cuts leave, do not count.
+  std::vector<double> areas = mesh->element_area;
+  const auto fine = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 20);
+  std::nth_element(areas.begin(), fine, areas.end());
+  plan.push_back({"fine elements where direct light is even",
+                  "it is what interpolation makes of it there; other light takes the vertices of " +
+                      std::to_string(mesh->base->element_count) + " even elements",
+                  std::to_string(mesh->element_count) + " elements instead of some " +
+                      figureText(mesh->lit_area / *fine)});
+  return mesh;
+}
+
+}  // namespace
+
 Preparation prepare(const Scene& scene, const SolveOptions& options, const CancelToken& cancel) {
   Preparation out;
   const double mesh_began = wallSeconds();
-  out.mesh = options.mesh
-                 ? options.mesh
-                 : std::make_shared<const Mesh>(buildMesh(
-                       scene, {options.elements, options.element_size, options.emit_front_only}, cancel));
-  const double plan_began = wallSeconds();
   out.form_factors = options.form_factors;
-  if (out.form_factors == "auto")
-    out.form_factors = nothingCanOcclude(*out.mesh) ? "closed-form" : "hemicube";
+  out.mesh = options.mesh;
+  bool to_refine = !options.mesh && !finenessGiven(options) &&
+                   (out.form_factors == "auto" || atVertices(out.form_factors));
+  if (!out.mesh)
+    out.mesh = to_refine ? baseMesh(scene, options, cancel) : uniformMesh(scene, options, cancel);
+  PlanDecision choice;
+  if (out.form_factors == "auto") {
+    const double looks =
+        static_cast<double>(out.mesh->vertices.size()) * static_cast<double>(out.mesh->patch_count);
+    const bool rays = options.soonest && looks <= kMostLooks;
+    out.form_factors = nothingCanOcclude(*out.mesh) ? "closed-form" : rays ? "rays" : "hemicube";
+    if (to_refine && !atVertices(out.form_factors)) {
+      to_refine = false;
+      out.mesh = uniformMesh(scene, options, cancel);
+    }
+    if (out.form_factors == "rays")
+      choice = {"hemicubes and OpenGL for the solution",
+                "shadow rays see as much from " + std::to_string(out.mesh->vertices.size()) +
+                    " vertices sooner and more exactly",
+                "all pictures"};
+  }
+  std::vector<PlanDecision> decisions;
+  if (!choice.what.empty()) decisions.push_back(choice);
+  if (to_refine) out.mesh = refined(out.mesh, options, out.form_factors, decisions, cancel);
+  const double plan_began = wallSeconds();
   out.plan = makePlan(scene, *out.mesh, out.form_factors);
+  out.plan.insert(out.plan.end(), decisions.begin(), decisions.end());
   out.diagnostics = scene.diagnostics;
   out.diagnostics.insert(out.diagnostics.end(), out.mesh->diagnostics.begin(), out.mesh->diagnostics.end());
   const FormFactorMethodRow& row = findChoice(formFactorMethods(), out.form_factors, "form-factor method");

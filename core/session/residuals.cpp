@@ -116,15 +116,22 @@ Residuals::Residuals(const Mesh& mesh, const Receivers& receivers, std::uint64_t
     triangles_of_element_[mesh.triangle_element[t]].push_back(t);
   }
   sum = 0;
-  for (std::uint32_t v = 0; v < receivers.size(); ++v) {
-    if (counts(receivers.shares[receivers.start[v]].patch)) sum += receivers.area[v];
+  for (std::uint32_t v = 0; v < receivers.shownCount(); ++v) {
+    if (counts(receivers.shares[receivers.start[v]].patch)) sum += areaOf(v);
     receiver_area_sum_.push_back(sum);
   }
 }
 
-bool Residuals::counts(std::uint32_t patch) const {
-  return all_emit_ || mesh_.sides[mesh_.patch_side[patch]].emission == glm::dvec3(0.0);
+// Of two layers those receivers count that stand in both: in between, what arrives is interpolated, and how
+// well is the mesh's affair.
+double Residuals::areaOf(std::uint32_t receiver) const {
+  if (!receivers_.layered()) return receivers_.area[receiver];
+  const SparseRows& rows = receivers_.from_base;
+  const std::uint32_t first = rows.start[receiver];
+  return rows.start[receiver + 1] == first + 1 ? receivers_.area[rows.index[first]] : 0.0;
 }
+
+bool Residuals::counts(std::uint32_t patch) const { return all_emit_ || !mesh_.emits(patch); }
 
 void Residuals::add(std::size_t places) {
   if (triangle_area_sum_.empty() || triangle_area_sum_.back() <= 0 || receiver_area_sum_.back() <= 0) return;
@@ -192,8 +199,9 @@ void Residuals::addReceiver(std::uint64_t number) {
 }
 
 // Light that elements send, besides emission: rho H as it is known on them, without what is unshot of it.
-std::vector<Residuals::Residual> Residuals::pointResiduals(const RadiosityState& state) const {
-  const MeshField h = makeField(mesh_, receivers_, state.irradiance());
+std::vector<Residuals::Residual> Residuals::pointResiduals(const RadiosityState& state,
+                                                           const std::vector<glm::dvec3>& shown_field) const {
+  const MeshField h = makeField(mesh_, receivers_, shown_field);
   std::vector<glm::dvec3> light(mesh_.element_count);
   for (std::uint32_t e = 0; e < light.size(); ++e) {
     const std::uint32_t q = mesh_.element_patch[e];
@@ -223,7 +231,7 @@ std::vector<Residuals::Residual> Residuals::receiverResiduals(const RadiositySta
   }
   std::vector<Residual> out;
   for (const Place& place : elements_) {
-    const glm::dvec3& h = state.irradiance()[place.receiver];
+    const glm::dvec3 h = receivers_.shown(place.receiver, state.irradiance());
     const glm::dvec3& rho = state.reflectance()[place.patch];
     out.push_back({place.patch,
                    {rho * (irradianceOf(place.looks[0], state, light) - h),
@@ -233,10 +241,11 @@ std::vector<Residuals::Residual> Residuals::receiverResiduals(const RadiositySta
   return out;
 }
 
-ErrorEstimates Residuals::estimate(const RadiosityState& state, const PatchMatrix& matrix) const {
+ErrorEstimates Residuals::estimate(const RadiosityState& state, const PatchMatrix& matrix,
+                                   const std::vector<glm::dvec3>& shown) const {
   ErrorEstimates out;
   if (points_.empty() || elements_.empty()) return out;
-  const Ratio both = squaredError(pointResiduals(state), triangle_area_sum_.back(), state, matrix);
+  const Ratio both = squaredError(pointResiduals(state, shown), triangle_area_sum_.back(), state, matrix);
   const Ratio factors = squaredError(receiverResiduals(state), receiver_area_sum_.back(), state, matrix);
   out.both = estimateOf(both, points_.size());
   out.form_factor = estimateOf(factors, elements_.size());
@@ -246,10 +255,11 @@ ErrorEstimates Residuals::estimate(const RadiosityState& state, const PatchMatri
   return out;
 }
 
-std::vector<double> Residuals::patchResiduals(const RadiosityState& state) const {
+std::vector<double> Residuals::patchResiduals(const RadiosityState& state,
+                                              const std::vector<glm::dvec3>& shown) const {
   std::vector<double> sum(mesh_.patch_count, 0), count(mesh_.patch_count, 0), side_sum(mesh_.sides.size(), 0),
       side_count(mesh_.sides.size(), 0);
-  for (const Residual& r : pointResiduals(state)) {
+  for (const Residual& r : pointResiduals(state, shown)) {
     const double square = glm::dot(r.of_look[0], r.of_look[1]) / 3;
     sum[r.patch] += square;
     ++count[r.patch];

@@ -43,12 +43,13 @@ class Residuals {
   void add(std::size_t places);
   std::size_t places() const { return points_.size(); }
 
-  /// Of the present state. Costs some ten products with the matrix.
-  ErrorEstimates estimate(const RadiosityState& state, const PatchMatrix& matrix) const;
+  /// Of the present state. `shown`: H as it is shown, one per receiver [W/m^2]. Costs some ten products with
+  /// the matrix.
+  ErrorEstimates estimate(const RadiosityState& state, const PatchMatrix& matrix,
+                          const std::vector<glm::dvec3>& shown) const;
   /// RMS over its points of the residual of each patch [W/m^2], channels averaged; a patch with few points
   /// leans on those of its side, a side without points has 0.
-
-  std::vector<double> patchResiduals(const RadiosityState& state) const;
+  std::vector<double> patchResiduals(const RadiosityState& state, const std::vector<glm::dvec3>& shown) const;
 
  private:
   struct Place {
@@ -65,9 +66,11 @@ class Residuals {
   };
   void addPoint(std::uint64_t number);
   void addReceiver(std::uint64_t number);
-  std::vector<Residual> pointResiduals(const RadiosityState& state) const;
+  std::vector<Residual> pointResiduals(const RadiosityState& state,
+                                       const std::vector<glm::dvec3>& shown) const;
   std::vector<Residual> receiverResiduals(const RadiosityState& state) const;
   bool counts(std::uint32_t patch) const;
+  double areaOf(std::uint32_t receiver) const;
 
   const Mesh& mesh_;
   const Receivers& receivers_;

@@ -31,6 +31,7 @@ struct SolveFacts {
   std::filesystem::path scene_path;
   std::string scene_name;
   SolveOptions options;            ///< as asked for; `error` and `mode` follow the commands
+  double solver_target = 0;        ///< Solve::solverTarget
   std::string mode, form_factors;  ///< keys: what `auto` became
   std::vector<PlanDecision> plan;
   Diagnostics diagnostics;

@@ -6,15 +6,9 @@
 #include "base/clock.h"
 #include "formfactor/methods.h"
 #include "gl/context.h"
-#include "session/bounces.h"
-#include "session/draft_refinement.h"
-#include "session/error_budget.h"
 #include "session/fields.h"
-#include "session/known_solution.h"
 #include "session/plan.h"
-#include "session/stagnation.h"
-#include "solver/ambient.h"
-#include "solver/modes.h"
+#include "session/solve_impl.h"
 
 namespace unshot {
 namespace {
@@ -35,57 +29,6 @@ std::vector<glm::dvec3> perPatch(const Mesh& mesh, glm::dvec3 Side::*member) {
 }
 
 }  // namespace
-
-struct Solve::Impl {
-  SolveOptions options;
-  Scene scene;
-  std::shared_ptr<const Mesh> mesh;
-  std::string mode_key, form_factors_key;
-  std::vector<PlanDecision> plan;
-  Diagnostics diagnostics;
-  PhaseSeconds seconds;
-  double cpu_start = 0, solve_start = 0, cpu_setup = 0;
-
-  std::unique_ptr<Transport> transport;
-  std::unique_ptr<RadiosityState> state;
-  const IterationModeRow* mode_row = nullptr;
-  std::unique_ptr<IterationMode> mode;  // made anew where columns have changed: it may hold products of them
-  std::unique_ptr<AmbientTerm> ambient;
-  std::unique_ptr<ErrorBudget> budget;
-  std::unique_ptr<Bounces> bounces_of_light;
-  KnownSolution known_solution;
-  std::uint64_t rows_before = 0;  // computed before the solve shot again
-
-  SolveState progress_state = SolveState::kRunning;
-  std::string stopped_by;
-  std::optional<Error> failure;
-  Measures measures;
-  std::vector<HistoryEntry> history;
-  bool resting = false, mode_failed = false, room_noted = false;
-  DraftRefinement drafts;
-  double measured_wall = 0, measured_cpu = 0;  // when `measures` were taken
-  SharedFields shared;
-  StagnationWatch stagnation;
-
-  Impl(Scene scene_in, SolveOptions options_in)
-      : options(std::move(options_in)), scene(std::move(scene_in)) {}
-
-  void prepare(const std::function<gl::Context&()>& gl, const CancelToken& cancel);
-  void makeTransport(const std::function<gl::Context&()>& gl, const CancelToken& cancel);
-  void chooseMode(const std::string& key);
-  void stop(SolveState how, std::string why);
-  void fail(ErrorKind kind, std::string why, std::string advice);
-  void wakeClocks();
-  void learnSolution();
-  void measure();
-  bool reached();
-  void checkLimits();
-  void checkStagnation();
-  void noteMissingRoom();
-  void record();
-  void refine();
-  std::optional<std::size_t> iterate();
-};
 
 void Solve::Impl::prepare(const std::function<gl::Context&()>& gl, const CancelToken& cancel) {
   checkError(options.error);
@@ -113,6 +56,9 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl, const CancelT
     ambient->sees(q, column, transport->receivers());
     budget->columnComputed(q, column);
   });
+  if (transport->receivers().layered() && !options.bounces)
+    local_pass =
+        std::make_unique<LocalPass>(*mesh, transport->receivers(), form_factors_key != "closed-form");
   bounces_of_light = std::make_unique<Bounces>(mesh, *transport, *state);
   chooseMode(options.mode);
   solve_start = wallSeconds();
@@ -137,13 +83,14 @@ void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl, const C
     context.makeCurrent();
     return context;
   };
+  const auto receivers = std::make_shared<const Receivers>(makeReceivers(*mesh, row.receivers, cancel));
+  if (row.receivers == ReceiverKind::kVertices) setup.receivers = receivers;
   std::unique_ptr<FormFactorMethod> method = row.make(setup);
   if (!method->note().empty())
     diagnostics.push_back({Severity::kNote, "form-factor-note", method->note(), {}, {}});
   if (options.wrap_form_factors) method = options.wrap_form_factors(std::move(method));
   cancel.check();
-  Receivers receivers = makeReceivers(*mesh, method->receiverKind(), cancel);
-  transport = std::make_unique<Transport>(std::move(method), std::move(receivers), mesh->patch_area,
+  transport = std::make_unique<Transport>(std::move(method), *receivers, mesh->patch_area,
                                           options.kept_bytes / options.sharers);
   transport->allowDrafts(options.draft_first && !options.bounces);
 }
@@ -167,14 +114,12 @@ void Solve::Impl::chooseMode(const std::string& key) {
   options.mode = key;
 }
 
-void Solve::Impl::stop(SolveState how, std::string why) {
-  progress_state = how;
-  stopped_by = std::move(why);
-}
-
-void Solve::Impl::fail(ErrorKind kind, std::string why, std::string advice) {
-  failure.emplace(kind, "the solve failed: " + why, scene.path.string(), std::move(advice));
-  stop(SolveState::kFailed, std::move(why));
+// H with what the local pass adds, one per receiver.
+std::vector<glm::dvec3> Solve::Impl::shownIrradiance() const {
+  std::vector<glm::dvec3> out = state->irradiance();
+  if (!local_pass || local_pass->irradiance().empty()) return out;
+  for (std::size_t v = 0; v < out.size(); ++v) out[v] += local_pass->irradiance()[v];
+  return out;
 }
 
 void Solve::Impl::wakeClocks() {
@@ -208,60 +153,6 @@ void Solve::Impl::measure() {
 void Solve::Impl::learnSolution() {
   if (mode_key != "direct" || known_solution.known(*transport)) return;
   if (state->unshotPower() <= kSolved * state->emittedPower()) known_solution.learn(*state, *transport);
-}
-
-void Solve::Impl::checkLimits() {
-  if (!std::isfinite(measures.unshot_fraction)) {
-    fail(ErrorKind::kInternal, "a value is no longer finite", "another --mode or --form-factors");
-  } else if (!options.bounces && reached()) {
-    stop(SolveState::kConverged, measures.bounds.upper < kNoBound ? "solver_upper" : "solver_total_upper");
-  } else if (options.max_shots && measures.shots >= *options.max_shots) {
-    stop(SolveState::kLimit, "max_shots");
-  } else if (options.max_seconds && measures.seconds >= *options.max_seconds) {
-    stop(SolveState::kLimit, "max_seconds");
-  }
-}
-
-// Whether the error asked for is reached, held against the bound as it is at its sharpest (which may be one
-// per patch where the last was for the total).
-bool Solve::Impl::reached() {
-  if (measures.solverBound() > options.error || measures.drafts > 0) return false;
-  measures.bounds = SolverBounds::tighter(measures.bounds, budget->sharpen());
-  return measures.solverBound() <= options.error;
-}
-
-void Solve::Impl::checkStagnation() {
-  if (options.bounces || !stagnation.found(measures, mesh->patch_count)) return;
-  if (nothingDiesOut(*state)) {
-    fail(ErrorKind::kInput,
-         "no finite solution: the walls that the light reaches reflect all of it (reflectance 1) and let "
-         "none out, so "
-         "it never dies out",
-         "a reflectance (Kd) below 1 for some wall, or --bounces N (or --max-shots N) for the light of a "
-         "number of bounces");
-  } else {
-    fail(ErrorKind::kInternal, "stagnation: the unshot power does not fall",
-         "another --mode or --form-factors");
-  }
-}
-
-// Once, when the first column finds no room.
-void Solve::Impl::noteMissingRoom() {
-  if (room_noted || transport->missingRoom() == 0) return;
-  room_noted = true;
-  const auto megabytes = [](std::size_t bytes) {
-    return std::to_string(static_cast<std::size_t>(std::ceil(static_cast<double>(bytes) / 1e6)));
-  };
-  const std::size_t needed = options.sharers * transport->missingRoom();
-  const bool other_mode = !options.bounces && mode_key != "kept-first";
-  diagnostics.push_back({Severity::kWarning,
-                         "form-factors-not-kept",
-                         "the form factors take about " + megabytes(needed) + " MB and may take " +
-                             megabytes(options.kept_bytes) +
-                             " MB: those beyond are computed again whenever they are needed",
-                         {},
-                         "--keep " + megabytes(needed * 11 / 10) + ", fewer --elements" +
-                             (other_mode ? ", or the mode kept-first" : "")});
 }
 
 // A curve needs no more points than a plot has pixels: each is a hundredth further than the last.
@@ -300,9 +191,14 @@ void Solve::step() {
   Impl& s = *impl_;
   if (s.progress_state != SolveState::kRunning) return;
   s.wakeClocks();
+  if (s.finished_by) {
+    s.sharpen();
+    s.measure();
+    return;
+  }
   bool nothing_left = false;
   bool refined = true;
-  if (s.drafts.due(*s.transport, s.measures.solverBound() <= s.options.error)) {
+  if (s.drafts.due(*s.transport, s.measures.solverBound() <= s.target())) {
     s.refine();
   } else if (const auto used = s.iterate()) {
     s.measures.shots += *used;
@@ -317,10 +213,14 @@ void Solve::step() {
   if (refined) s.stagnation.restart(s.measures);  // a better column brings unshot light of its own
   if (s.progress_state == SolveState::kRunning) s.checkLimits();
   if (s.progress_state == SolveState::kLimit || nothing_left) s.measures.bounds = s.budget->sharpen();
-  if (s.progress_state == SolveState::kRunning && nothing_left)
-    s.stop(SolveState::kConverged,
-           s.options.bounces && !s.state->onlyRoundingUnshot() ? "bounces" : "nothing unshot");
-  if (s.progress_state == SolveState::kRunning) s.checkStagnation();
+  if (s.progress_state == SolveState::kRunning && nothing_left && !s.finished_by) {
+    if (s.options.bounces && !s.state->onlyRoundingUnshot()) {
+      s.stop(SolveState::kConverged, "bounces");
+    } else {
+      s.finish("nothing unshot");
+    }
+  }
+  if (s.progress_state == SolveState::kRunning && !s.finished_by) s.checkStagnation();
   s.noteMissingRoom();
   s.record();
 }
@@ -331,6 +231,8 @@ void Solve::again() {
   s.budget->restart();
   s.mode.reset();
   s.shared.forgetDirect();
+  s.finished_by.reset();
+  if (s.local_pass) s.local_pass->forget();
   s.failure.reset();
   s.mode_failed = s.resting = false;
   s.drafts = {};
@@ -360,11 +262,12 @@ void Solve::setError(double error) {
   checkError(error);
   Impl& s = *impl_;
   s.options.error = error;
+  s.finished_by.reset();
   if (s.stopped_by == "no light") return;
   if (s.progress_state == SolveState::kConverged) {
     s.stop(SolveState::kRunning, {});
     s.stagnation.restart(s.measures);
-  } else if (s.progress_state == SolveState::kLimit && s.measures.solverBound() <= error) {
+  } else if (s.progress_state == SolveState::kLimit && s.measures.solverBound() <= s.target()) {
     s.stop(SolveState::kRunning, {});
   }
   if (s.progress_state != SolveState::kRunning) return;
@@ -376,8 +279,9 @@ const ErrorEstimates& Solve::estimate(std::size_t more_places) {
   Impl& s = *impl_;
   const double cpu_began = cpuSeconds();
   rest();
-  s.budget->estimate(more_places);
-  s.shared.setResidual(*s.mesh, s.budget->patchResiduals());
+  const std::vector<glm::dvec3> shown = s.shownIrradiance();
+  s.budget->estimate(more_places, shown);
+  s.shared.setResidual(*s.mesh, s.budget->patchResiduals(shown));
   s.seconds.cpu_solve += cpuSeconds() - cpu_began;
   return s.budget->estimates();
 }
@@ -407,6 +311,8 @@ const ErrorEstimates& Solve::estimates() const { return impl_->budget->estimates
 
 void Solve::rest() { impl_->resting = true; }
 
+double Solve::solverTarget() const { return impl_->target(); }
+
 SolveState Solve::state() const { return impl_->progress_state; }
 
 void Solve::interrupt() {
@@ -415,7 +321,7 @@ void Solve::interrupt() {
 
 Snapshot Solve::snapshot() const {
   const Impl& s = *impl_;
-  Snapshot out = makeFields(s.mesh, *s.transport, *s.state, *s.ambient);
+  Snapshot out = makeFields(s.mesh, s.transport->receivers(), s.shownIrradiance(), *s.state, *s.ambient);
   out.measures = s.measures;
   impl_->shared.addTo(out, *s.transport, *s.state, s.budget->bounds());
   out.bounce_light = s.bounces_of_light->light();
@@ -435,7 +341,7 @@ double Solve::progress() const {
   if (!std::isfinite(s.measures.unshot_fraction)) return 0;
   // Until there is a bound, what is unshot says how far it is.
   const double bound = s.measures.solverBound(), left = bound < kNoBound ? bound : s.measures.unshot_fraction;
-  const double reached = std::log(std::max(left, 1e-300)) / std::log(s.options.error);
+  const double reached = std::log(std::max(left, 1e-300)) / std::log(s.target());
   return std::clamp(reached, 0.0, 0.999);
 }
 

@@ -27,10 +27,16 @@ class FormFactorMethod;
 struct SolveOptions {
   std::string mode = "auto";
   std::string form_factors = "auto";
+  /// What `auto` form factors are where something can occlude: hemicubes, which show how light is shot, or
+  /// what is soonest as exact as asked for.
+  bool soonest = false;
   std::optional<std::uint64_t> elements;  ///< over all lit sides; at most one of elements and element_size
   std::optional<double> element_size;     ///< [m], edge of an element
+  /// Without the two, and with form factors at vertices, the mesh follows the light (light_refinement.h), as
+  /// fine as `error` asks for and of about so many elements at most.
+  std::uint64_t max_elements = 1'000'000;
   bool emit_front_only = false;
-  double error = 0.01;  ///< stop when the bound of the solver's error (Measures::solverBound) is below this
+  double error = 0.01;  ///< stop when the bound of the solver's error is below Solve::solverTarget
   std::optional<double> max_seconds;
   std::optional<std::uint64_t> max_shots;
   /// Only the light of so many bounces, E + M E + ... + M^n E, whatever its error: the mode is `jacobi`,
@@ -111,6 +117,9 @@ class Solve {
   /// Stops the clocks of `measures`, as the last step left them, until the next step.
   void rest();
 
+  /// What the bound of the solver's error (Measures::solverBound) is held against: SolveOptions::error or,
+  /// where the mesh follows the light and the error asked for is that of the whole, the solver's share of it.
+  double solverTarget() const;
   SolveState state() const;
   /// Ends the solve as interrupted; what was reached stays.
   void interrupt();

@@ -32,6 +32,8 @@ struct GoldenPicture {
   const char* name;  ///< of pictures/NAME.png
   const char* scene;
   const char* display;
+  const char* form_factors;
+  bool follows_light = false;  ///< no number of elements is asked for
 };
 
 void PrintTo(const GoldenPicture& picture, std::ostream* out) { *out << picture.name; }
@@ -43,9 +45,15 @@ const fs::path kFailures = fs::path(UNSHOT_PROGRAM).parent_path() / "picture_fai
 /// Solves and draws PROVIDER.png; returns the "gl" part of the run's report.
 nlohmann::json draw(const TempFolder& folder, const GoldenPicture& picture, const std::string& provider) {
   const std::string scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/" + picture.scene + ".obj";
-  const ProgramResult run = runProgram(
-      folder, {"solve", scene, "--elements", "2000", "--gl", provider, "--size", "480x360", "--display",
-               picture.display, "--png", provider + ".png", "--report", provider + ".json"});
+  std::vector<std::string> words = {"solve",          scene,
+                                    "--form-factors", picture.form_factors,
+                                    "--gl",           provider,
+                                    "--size",         "480x360",
+                                    "--display",      picture.display,
+                                    "--png",          provider + ".png",
+                                    "--report",       provider + ".json"};
+  if (!picture.follows_light) words.insert(words.end(), {"--elements", "2000"});
+  const ProgramResult run = runProgram(folder, words);
   EXPECT_EQ(run.code, 0) << run.err;
   if (run.code != 0) return {};
   return nlohmann::json::parse(folder.read(provider + ".json")).at("gl");
@@ -90,19 +98,21 @@ TEST_P(PictureTest, IsTheReference) {
   expectSame(folder, folder.path() / "osmesa.png", reference, kTolerance, golden.name);
 }
 
-INSTANTIATE_TEST_SUITE_P(Golden, PictureTest,
-                         testing::Values(GoldenPicture{"cornell_box", "cornell_box", "radiosity"},
-                                         GoldenPicture{"cornell_box_flat", "cornell_box", "flat"},
-                                         GoldenPicture{"cornell_box_irradiance", "cornell_box", "irradiance"},
-                                         GoldenPicture{"cornell_box_mesh", "cornell_box", "mesh"},
-                                         GoldenPicture{"two_patches", "two_patches", "radiosity"},
-                                         GoldenPicture{"furnace", "furnace", "radiosity"},
-                                         GoldenPicture{"two_rooms", "two_rooms", "radiosity"}),
-                         [](const auto& each) { return std::string(each.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Golden, PictureTest,
+    testing::Values(GoldenPicture{"cornell_box", "cornell_box", "radiosity", "hemicube"},
+                    GoldenPicture{"cornell_box_flat", "cornell_box", "flat", "hemicube"},
+                    GoldenPicture{"cornell_box_irradiance", "cornell_box", "irradiance", "hemicube"},
+                    GoldenPicture{"cornell_box_mesh", "cornell_box", "mesh", "hemicube"},
+                    GoldenPicture{"cornell_box_fine_mesh", "cornell_box", "mesh", "auto", true},
+                    GoldenPicture{"two_patches", "two_patches", "radiosity", "auto"},
+                    GoldenPicture{"furnace", "furnace", "radiosity", "auto"},
+                    GoldenPicture{"two_rooms", "two_rooms", "radiosity", "hemicube"}),
+    [](const auto& each) { return std::string(each.param.name); });
 
 TEST(PictureProviders, OsmesaAndEglDrawTheSameSolve) {
   const TempFolder folder;
-  const GoldenPicture cornell_box{"", "cornell_box", "radiosity"};
+  const GoldenPicture cornell_box{"", "cornell_box", "radiosity", "hemicube"};
   for (const char* provider : {"osmesa", "egl"}) {
     const nlohmann::json gl = draw(folder, cornell_box, provider);
     ASSERT_TRUE(gl.is_object());

@@ -165,6 +165,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         UsageCase{{"solve", "room.obj", "--elements", "9", "--element-size", "1"},
                   "cannot be given together"},
+        UsageCase{{"solve", "room.obj", "--elements", "9", "--max-elements", "99"},
+                  "cannot be given together"},
         UsageCase{{"solve", "room.obj", "--probe", "points.csv"}, "--probe needs --probe-out beside it"},
         UsageCase{{"solve", "room.obj", "--probe-out", "out.csv"}, "--probe-out needs --probe beside it"},
         UsageCase{{"solve", "room.obj", "--eye", "1,2,3", "--at", "1,2,3"},

@@ -73,8 +73,9 @@ constexpr double kSameRenderer = 0.005;
 
 TEST(Program, DrawsWhatSolveDraws) {
   const TempFolder folder;
-  const std::vector<std::string> common{kCornellBox, "--elements", "500",     "--seed", "3",
-                                        "--size",    "400x300",    "--error", "0.001",  "--display"};
+  const std::vector<std::string> common{kCornellBox, "--elements", "500",   "--form-factors",
+                                        "hemicube",  "--seed",     "3",     "--size",
+                                        "400x300",   "--error",    "0.001", "--display"};
   struct Meeting {
     std::string display, script, limit;
   };

@@ -108,8 +108,9 @@ TEST_P(FactorLaws, RowsSumToOne) {
     }
     EXPECT_NEAR(sum, 1, 1e-12);
     // Where surfaces occlude, a ray or a few decide about a patch: what they leave open is part of a patch a
-    // row.
-    const double sampled = occludes(GetParam().method) && !GetParam().scene.convex ? 0.04 : 0;
+    // row. Methods that can see them take distant patches within 0.2 % (FactorPolygon::quick).
+    const bool occluding = occludes(GetParam().method);
+    const double sampled = !occluding ? 0 : GetParam().scene.convex ? 1e-4 : 0.04;
     EXPECT_GT(row.escape, -1e-6 - sampled);
     if (GetParam().scene.closed) {
       EXPECT_LT(row.escape, 1e-4 + sampled) << "receiver " << v;

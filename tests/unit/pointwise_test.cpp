@@ -77,8 +77,13 @@ TEST_P(PointwiseFactors, AreTheClosedFormWhereNothingStandsBetween) {
   for (const Scene& scene : {furnaceScene(0.5, 0.5), perpendicularSquares(0.5)}) {
     const Mesh mesh = buildMesh(scene, {200, {}, false});
     const auto method = made(GetParam().method, mesh), exact = made("closed-form", mesh);
-    for (std::uint32_t q = 0; q < mesh.patch_count; ++q)
-      EXPECT_EQ(method->column(q).k, exact->column(q).k) << q;
+    // But for FactorPolygon::quick.
+    for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
+      const Column got = method->column(q), wanted = exact->column(q);
+      ASSERT_EQ(got.k.size(), wanted.k.size());
+      for (std::size_t v = 0; v < got.k.size(); ++v)
+        EXPECT_NEAR(got.k[v], wanted.k[v], 2e-3 * static_cast<double>(wanted.k[v])) << q;
+    }
   }
 }
 

@@ -192,5 +192,40 @@ TEST(PolygonFactor, HasTheMeansOfTheClosedFormsForPairsOfRectangles) {
   EXPECT_NEAR(mean(wall(0.7, 0.3), 0.7, 0.5), 0.175145070955, 1e-8);
 }
 
+// Against the exact factor, for rectangles, triangles and hexagons in any position: within 0.2 % of it
+// wherever the quick sum stands in for it.
+TEST(FactorPolygon, QuickIsNearlyExact) {
+  Dice dice(31);
+  std::vector<glm::dvec3> scratch;
+  double worst = 0;
+  int far = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const glm::dmat3 turn = dice.rotation();
+    const double wide = dice.between(0.2, 1), high = dice.between(0.2, 1);
+    Ring ring;
+    if (k % 3 == 0) {
+      ring = {{0, 0, 0}, {wide, 0, 0}, {wide, high, 0}, {0, high, 0}};
+    } else if (k % 3 == 1) {
+      ring = {{0, 0, 0}, {wide, 0, 0}, {dice.between(0, 1), high, 0}};
+    } else {
+      for (int c = 0; c < 6; ++c)
+        ring.push_back(
+            {wide * std::cos(c * std::numbers::pi / 3), high * std::sin(c * std::numbers::pi / 3), 0});
+    }
+    for (glm::dvec3& corner : ring) corner = turn * corner;
+    const FactorPolygon polygon(ring);
+    const glm::dvec3 point =
+        polygon.centre() + dice.between(1, 10) * polygon.radius() * (dice.rotation() * kUp);
+    const glm::dvec3 normal = dice.rotation() * kUp;
+    const double exact = polygon.exact(point, normal, scratch);
+    if (exact <= 0) continue;
+    const double quick = polygon.quick(point, normal, scratch);
+    far += quick != exact;
+    worst = std::max(worst, std::abs(quick / exact - 1));
+  }
+  EXPECT_GT(far, 300);
+  EXPECT_LT(worst, 2e-3);
+}
+
 }  // namespace
 }  // namespace unshot

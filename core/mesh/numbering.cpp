@@ -1,0 +1,34 @@
+#include "mesh/numbering.h"
+
+#include <cmath>
+
+namespace unshot {
+
+void numberElements(Mesh& mesh, const CancelToken& cancel) {
+  mesh.element_count = mesh.patch_count = 0;
+  for (std::vector<std::uint32_t>* numbers : {&mesh.element_side, &mesh.element_patch, &mesh.patch_side})
+    numbers->clear();
+  mesh.element_area.clear();
+  mesh.patch_area.clear();
+  for (std::uint32_t k = 0; k < mesh.sides.size(); ++k) {
+    cancel.check();
+    Side& side = mesh.sides[k];
+    const Surface& surface = mesh.surfaces[side.surface];
+    side.first_element = mesh.element_count;
+    side.first_patch = mesh.patch_count;
+    mesh.element_count += surface.elements.count;
+    mesh.patch_count += surface.patches.count;
+    mesh.patch_side.resize(mesh.patch_count, k);
+    mesh.patch_area.resize(mesh.patch_count, 0.0);
+    for (std::uint32_t e = 0; e < surface.elements.count; ++e) {
+      const ElementShape& shape = mesh.shapes[surface.elements.first + e];
+      mesh.element_side.push_back(k);
+      mesh.element_area.push_back(shape.area);
+      mesh.element_patch.push_back(side.first_patch + shape.patch);
+      mesh.patch_area[side.first_patch + shape.patch] += shape.area;
+    }
+  }
+  if (mesh.element_count > 0) mesh.element_size = std::sqrt(mesh.lit_area / mesh.element_count);
+}
+
+}  // namespace unshot

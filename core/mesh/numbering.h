@@ -1,0 +1,13 @@
+// Numbers elements and patches over all lit sides of a mesh.
+#pragma once
+
+#include "base/cancel.h"
+#include "mesh/mesh.h"
+
+namespace unshot {
+
+/// Fills what is numbered over all sides (but patch_air), each side's first element and patch, and
+/// element_size, from the elements and patches of the surfaces.
+void numberElements(Mesh& mesh, const CancelToken& cancel = {});
+
+}  // namespace unshot

@@ -1,0 +1,23 @@
+// A mesh that follows the light: finer where light straight from emitters is not what interpolation makes of
+// it, at the edges of shadows first of all.
+#pragma once
+
+#include <memory>
+
+#include "base/cancel.h"
+#include "mesh/mesh.h"
+
+namespace unshot {
+
+struct LightRefinement {
+  double error = 0.01;                      ///< of the whole light, aimed at; direct light gets a part of it
+  std::uint64_t most_elements = 1'000'000;  ///< about
+  bool occlusion = true;                    ///< whether anything can stand between two points
+  std::uint64_t seed = 1;
+};
+
+/// `base` itself where nothing asks for more. Throws Cancelled.
+std::shared_ptr<const Mesh> refineForLight(std::shared_ptr<const Mesh> base, const LightRefinement& options,
+                                           const CancelToken& cancel = {});
+
+}  // namespace unshot

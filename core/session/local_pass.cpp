@@ -1,0 +1,144 @@
+#include "session/local_pass.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "base/clock.h"
+
+namespace unshot {
+namespace {
+
+// A patch, or an element of the base, is near within so many of its radii. On the Cornell box of 600 elements
+// twice as many lower the error from 2.2 to 2.0 %, for five times the work; half as many leave 2.2 %.
+constexpr double kNear = 4;
+constexpr double kSeconds = 4e-3;  // of an advance
+
+// Calls f(element, polygon) for each piece of each element.
+template <class F>
+void forEachPiece(const Mesh& mesh, F&& f) {
+  for (const Side& side : mesh.sides) {
+    const Surface& surface = mesh.surfaces[side.surface];
+    const std::uint32_t end = surface.first_cell + surface.nu * surface.nv;
+    for (std::uint32_t c = surface.first_cell; c < end; ++c) {
+      const Range pieces = mesh.cells[c].pieces;
+      for (std::uint32_t p = pieces.first; p < pieces.end(); ++p) {
+        const Range corners = mesh.pieces[p].corners;
+        std::vector<glm::dvec3> polygon;
+        for (std::uint32_t k = corners.first; k < corners.end(); ++k)
+          polygon.push_back(surface.point(mesh.piece_corners[k].uv));
+        if (side.back) std::reverse(polygon.begin(), polygon.end());
+        f(side.first_element + mesh.pieces[p].element, FactorPolygon(std::move(polygon)));
+      }
+    }
+  }
+}
+
+std::vector<glm::dvec3> placesOf(const Receivers& receivers, const Range& range) {
+  std::vector<glm::dvec3> out;
+  for (std::uint32_t v = range.first; v < range.end(); ++v) {
+    const auto views = receivers.viewsOf(v);
+    out.push_back(views.empty() ? glm::dvec3(0.0) : views[0].position);
+  }
+  return out;
+}
+
+}  // namespace
+
+LocalPass::LocalPass(const Mesh& mesh, const Receivers& receivers, bool occlusion)
+    : mesh_(mesh),
+      receivers_(receivers),
+      polygons_(mesh),
+      rays_(occlusion ? std::make_unique<MeshRays>(mesh) : nullptr),
+      first_receiver_(receivers.reachedBy(false).first),
+      places_(placesOf(receivers, receivers.reachedBy(false))),
+      tree_(places_) {
+  makeGroups();
+}
+
+void LocalPass::makeGroups() {
+  const Mesh& base = mesh_.base ? *mesh_.base : mesh_;
+  groups_.resize(base.element_count);
+  groups_of_patch_.resize(base.patch_count);
+  for (std::uint32_t e = 0; e < base.element_count; ++e) groups_of_patch_[base.element_patch[e]].push_back(e);
+  forEachPiece(base, [&](std::uint32_t e, FactorPolygon polygon) {
+    Group& group = groups_[e];
+    const Side& side = base.sides[base.element_side[e]];
+    group.middle = base.shapes[base.surfaces[side.surface].elements.first + e - side.first_element].centre;
+    for (const glm::dvec3& corner : polygon.corners())
+      group.radius = std::max(group.radius, glm::distance(corner, group.middle));
+    group.whole.push_back({std::move(polygon), e});
+  });
+  forEachPiece(mesh_, [&](std::uint32_t e, FactorPolygon polygon) {
+    groups_[mesh_.base ? mesh_.element_from_base[e] : e].parts.push_back({std::move(polygon), e});
+  });
+}
+
+void LocalPass::begin(const RadiosityState& state, const std::vector<glm::vec3>& element_irradiance) {
+  element_light_.resize(mesh_.element_count);
+  group_light_.assign(groups_.size(), glm::dvec3(0.0));
+  std::vector<double> area(groups_.size(), 0.0);
+  for (std::uint32_t e = 0; e < mesh_.element_count; ++e) {
+    const std::uint32_t group = mesh_.base ? mesh_.element_from_base[e] : e;
+    element_light_[e] = state.reflectance()[mesh_.element_patch[e]] * glm::dvec3(element_irradiance[e]);
+    group_light_[group] += mesh_.element_area[e] * element_light_[e];
+    area[group] += mesh_.element_area[e];
+  }
+  for (std::size_t g = 0; g < groups_.size(); ++g) group_light_[g] /= std::max(area[g], 1e-300);
+  patch_light_ = state.shot();
+  sum_.assign(receivers_.size(), glm::dvec3(0.0));
+  next_ = 0;
+}
+
+void LocalPass::advance(Transport& transport) {
+  const double until = wallSeconds() + kSeconds;
+  for (; running() && wallSeconds() < until; ++next_) {
+    // What emitters reflect goes the way of their emission, along columns that are exact already.
+    if (!mesh_.emits(next_) && transport.isKept(next_)) gather(next_, transport.column(next_));
+  }
+  if (!running()) irradiance_ = std::move(sum_);
+}
+
+void LocalPass::gather(std::uint32_t q, const Column& column) {
+  if (!column.receiver.empty()) return;
+  const glm::dvec3& middle = polygons_.middle(q);
+  tree_.nearSegment(middle, middle, kNear * polygons_.radius(q), [&](std::uint32_t place) {
+    const std::uint32_t v = first_receiver_ + place;
+    bool near = false;
+    glm::dvec3 light(0.0);
+    for (const ReceiverView& view : receivers_.viewsOf(v)) light += view.weight * gather(view, q, near);
+    if (near) sum_[v] += light - static_cast<double>(column.k[v - column.first]) * patch_light_[q];
+  });
+}
+
+// What the view has of the patch's elements. `near` becomes true where there is anything of it to be seen.
+glm::dvec3 LocalPass::gather(const ReceiverView& view, std::uint32_t q, bool& near) {
+  glm::dvec3 sum(0.0);
+  if (mesh_.sides[view.side].surface == polygons_.surface(q) ||
+      polygons_.quickFactor(q, view.position, view.normal, scratch_) == 0)
+    return sum;
+  near = true;
+  const glm::dvec3& normal = mesh_.sides[mesh_.patch_side[q]].normal;
+  const glm::dvec3 eye = rays_ ? rays_->rays().lifted(view.position, view.normal) : view.position;
+  for (const std::uint32_t g : groups_of_patch_[q]) {
+    const Group& group = groups_[g];
+    if (glm::distance(view.position, group.middle) > kNear * group.radius) {
+      for (const Tile& tile : group.whole) sum += gather(view, eye, tile, normal, group_light_[g]);
+    } else {
+      for (const Tile& tile : group.parts)
+        sum += gather(view, eye, tile, normal, element_light_[tile.element]);
+    }
+  }
+  return sum;
+}
+
+glm::dvec3 LocalPass::gather(const ReceiverView& view, const glm::dvec3& eye, const Tile& tile,
+                             const glm::dvec3& normal, const glm::dvec3& light) {
+  const double factor = tile.polygon.quick(view.position, view.normal, scratch_);
+  if (factor <= 0) return glm::dvec3(0.0);
+  const bool above = glm::dot(tile.polygon.centre() - view.position, view.normal) > 0;
+  if (rays_ && above && rays_->rays().occluded(eye, rays_->rays().lifted(tile.polygon.centre(), normal)))
+    return glm::dvec3(0.0);
+  return factor * light;
+}
+
+}  // namespace unshot

@@ -1,0 +1,67 @@
+// The local pass: one more application of the operator, nearer to the truth than the solution it starts from.
+// What a receiver has from patches near to it is gathered again from their elements, each with its own
+// radiosity and its own visibility, where the solve has one radiosity and one look for the whole patch.
+// Farther away that makes no difference.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "base/point_tree.h"
+#include "formfactor/patch_polygons.h"
+#include "formfactor/transport.h"
+#include "mesh/mesh.h"
+#include "mesh/mesh_rays.h"
+#include "solver/state.h"
+
+namespace unshot {
+
+class LocalPass {
+ public:
+  /// For receivers at vertices; all must outlive the pass. `occlusion`: whether anything can stand between
+  /// two points.
+  LocalPass(const Mesh& mesh, const Receivers& receivers, bool occlusion);
+
+  /// Starts anew, from the present state and `element_irradiance`, H of each element [W/m^2].
+  void begin(const RadiosityState& state, const std::vector<glm::vec3>& element_irradiance);
+  bool running() const { return next_ < mesh_.patch_count; }
+  /// Goes on for some milliseconds, along columns that are kept; what is near along others stays as it is.
+  void advance(Transport& transport);
+  /// What the last pass that came to its end adds to the irradiance, one per receiver [W/m^2]; empty before.
+  const std::vector<glm::dvec3>& irradiance() const { return irradiance_; }
+  /// None has come to its end.
+  void forget() { irradiance_.clear(); }
+
+ private:
+  struct Tile {  // a piece of an element
+    FactorPolygon polygon;
+    std::uint32_t element;
+  };
+  // An element of the base: whole, as it is looked at from afar, and in the pieces of the mesh's elements.
+  struct Group {
+    std::vector<Tile> whole, parts;
+    glm::dvec3 middle{0.0};
+    double radius = 0;
+  };
+  void makeGroups();
+  void gather(std::uint32_t q, const Column& column);
+  glm::dvec3 gather(const ReceiverView& view, std::uint32_t q, bool& near);
+  glm::dvec3 gather(const ReceiverView& view, const glm::dvec3& eye, const Tile& tile,
+                    const glm::dvec3& normal, const glm::dvec3& light);
+
+  const Mesh& mesh_;
+  const Receivers& receivers_;
+  PatchPolygons polygons_;
+  std::unique_ptr<MeshRays> rays_;  // null where nothing can occlude
+  std::vector<Group> groups_;       // one per element of the base
+  std::vector<std::vector<std::uint32_t>> groups_of_patch_;
+  std::uint32_t first_receiver_ = 0;
+  std::vector<glm::dvec3> places_;  // of the receivers from first_receiver_ on
+  PointTree tree_;
+  std::vector<glm::dvec3> element_light_, group_light_, patch_light_;  // of the pass that is running
+  std::vector<glm::dvec3> sum_, irradiance_;
+  std::vector<glm::dvec3> scratch_;
+  std::uint32_t next_ = kNone;
+};
+
+}  // namespace unshot

@@ -1,0 +1,92 @@
+// How a solve ends: the error reached, limits, stagnation, failures; and the local pass before a good end.
+#include <cmath>
+
+#include "session/solve_impl.h"
+
+namespace unshot {
+namespace {
+
+// Of the error asked for, where it is that of the whole: the rest is the mesh's and the form factors'.
+constexpr double kSolverShare = 0.4;
+
+}  // namespace
+
+double Solve::Impl::target() const { return mesh->base ? kSolverShare * options.error : options.error; }
+
+void Solve::Impl::stop(SolveState how, std::string why) {
+  progress_state = how;
+  stopped_by = std::move(why);
+}
+
+void Solve::Impl::fail(ErrorKind kind, std::string why, std::string advice) {
+  failure.emplace(kind, "the solve failed: " + why, scene.path.string(), std::move(advice));
+  stop(SolveState::kFailed, std::move(why));
+}
+
+// Converged, but for the local pass.
+void Solve::Impl::finish(std::string why) {
+  if (!local_pass) return stop(SolveState::kConverged, std::move(why));
+  finished_by = std::move(why);
+  local_pass->begin(*state, makeField(*mesh, transport->receivers(), state->irradiance()).elements);
+}
+
+void Solve::Impl::sharpen() {
+  local_pass->advance(*transport);
+  if (!local_pass->running()) stop(SolveState::kConverged, *std::exchange(finished_by, std::nullopt));
+}
+
+// Whether the error asked for is reached, held against the bound as it is at its sharpest (which may be one
+// per patch where the last was for the total).
+bool Solve::Impl::reached() {
+  if (measures.solverBound() > target() || measures.drafts > 0) return false;
+  measures.bounds = SolverBounds::tighter(measures.bounds, budget->sharpen());
+  return measures.solverBound() <= target();
+}
+
+void Solve::Impl::checkLimits() {
+  if (!std::isfinite(measures.unshot_fraction)) {
+    fail(ErrorKind::kInternal, "a value is no longer finite", "another --mode or --form-factors");
+  } else if (!options.bounces && reached()) {
+    finish(measures.bounds.upper < kNoBound ? "solver_upper" : "solver_total_upper");
+  } else if (options.max_shots && measures.shots >= *options.max_shots) {
+    stop(SolveState::kLimit, "max_shots");
+  } else if (options.max_seconds && measures.seconds >= *options.max_seconds) {
+    stop(SolveState::kLimit, "max_seconds");
+  }
+}
+
+void Solve::Impl::checkStagnation() {
+  if (options.bounces || !stagnation.found(measures, mesh->patch_count)) return;
+  if (nothingDiesOut(*state)) {
+    fail(ErrorKind::kInput,
+         "no finite solution: the walls that the light reaches reflect all of it (reflectance 1) and let "
+         "none out, so "
+         "it never dies out",
+         "a reflectance (Kd) below 1 for some wall, or --bounces N (or --max-shots N) for the light of a "
+         "number of bounces");
+  } else {
+    fail(ErrorKind::kInternal, "stagnation: the unshot power does not fall",
+         "another --mode or --form-factors");
+  }
+}
+
+// Once, when the first column finds no room.
+void Solve::Impl::noteMissingRoom() {
+  if (room_noted || transport->missingRoom() == 0) return;
+  room_noted = true;
+  const auto megabytes = [](std::size_t bytes) {
+    return std::to_string(static_cast<std::size_t>(std::ceil(static_cast<double>(bytes) / 1e6)));
+  };
+  const std::size_t needed = options.sharers * transport->missingRoom();
+  const bool other_mode = !options.bounces && mode_key != "kept-first";
+  diagnostics.push_back({Severity::kWarning,
+                         "form-factors-not-kept",
+                         "the form factors take about " + megabytes(needed) + " MB and may take " +
+                             megabytes(options.kept_bytes) +
+                             " MB: those beyond are computed again whenever they are needed",
+                         {},
+                         "--keep " + megabytes(needed * 11 / 10) + ", fewer --elements" +
+                             (other_mode ? ", or the mode kept-first" : "")});
+}
+
+}  // namespace unshot

@@ -1,0 +1,80 @@
+// What a solve holds, for its own files alone: solve.cpp, which sets it up and takes its steps, and
+// solve_end.cpp, which says when and why it ends.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "session/bounces.h"
+#include "session/draft_refinement.h"
+#include "session/error_budget.h"
+#include "session/fields.h"
+#include "session/known_solution.h"
+#include "session/local_pass.h"
+#include "session/solve.h"
+#include "session/stagnation.h"
+#include "solver/ambient.h"
+#include "solver/modes.h"
+
+namespace unshot {
+
+struct Solve::Impl {
+  SolveOptions options;
+  Scene scene;
+  std::shared_ptr<const Mesh> mesh;
+  std::string mode_key, form_factors_key;
+  std::vector<PlanDecision> plan;
+  Diagnostics diagnostics;
+  PhaseSeconds seconds;
+  double cpu_start = 0, solve_start = 0, cpu_setup = 0;
+
+  std::unique_ptr<Transport> transport;
+  std::unique_ptr<RadiosityState> state;
+  const IterationModeRow* mode_row = nullptr;
+  std::unique_ptr<IterationMode> mode;  // made anew where columns have changed: it may hold products of them
+  std::unique_ptr<AmbientTerm> ambient;
+  std::unique_ptr<ErrorBudget> budget;
+  std::unique_ptr<Bounces> bounces_of_light;
+  KnownSolution known_solution;
+  std::uint64_t rows_before = 0;  // computed before the solve shot again
+
+  SolveState progress_state = SolveState::kRunning;
+  std::string stopped_by;
+  std::optional<Error> failure;
+  Measures measures;
+  std::vector<HistoryEntry> history;
+  bool resting = false, mode_failed = false, room_noted = false;
+  DraftRefinement drafts;
+  double measured_wall = 0, measured_cpu = 0;  // when `measures` were taken
+  SharedFields shared;
+  StagnationWatch stagnation;
+  std::unique_ptr<LocalPass> local_pass;   // where the mesh is refined
+  std::optional<std::string> finished_by;  // what ends the solve once the local pass is through
+
+  Impl(Scene scene_in, SolveOptions options_in)
+      : options(std::move(options_in)), scene(std::move(scene_in)) {}
+
+  void prepare(const std::function<gl::Context&()>& gl, const CancelToken& cancel);
+  void makeTransport(const std::function<gl::Context&()>& gl, const CancelToken& cancel);
+  void chooseMode(const std::string& key);
+  void stop(SolveState how, std::string why);
+  void fail(ErrorKind kind, std::string why, std::string advice);
+  void wakeClocks();
+  void learnSolution();
+  void measure();
+  bool reached();
+  void checkLimits();
+  void checkStagnation();
+  void noteMissingRoom();
+  double target() const;
+  std::vector<glm::dvec3> shownIrradiance() const;
+  void finish(std::string why);
+  void sharpen();
+  void record();
+  void refine();
+  std::optional<std::size_t> iterate();
+};
+
+}  // namespace unshot
