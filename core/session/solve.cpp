@@ -281,6 +281,7 @@ const ErrorEstimates& Solve::estimate(std::size_t more_places) {
   rest();
   const std::vector<glm::dvec3> shown = s.shownIrradiance();
   s.budget->estimate(more_places, shown);
+  s.noteMissedError();
   s.shared.setResidual(*s.mesh, s.budget->patchResiduals(shown));
   s.seconds.cpu_solve += cpuSeconds() - cpu_began;
   return s.budget->estimates();

@@ -1,6 +1,7 @@
 // How a solve ends: the error reached, limits, stagnation, failures; and the local pass before a good end.
 #include <cmath>
 
+#include "base/text.h"
 #include "session/solve_impl.h"
 
 namespace unshot {
@@ -8,6 +9,9 @@ namespace {
 
 // Of the error asked for, where it is that of the whole: the rest is the mesh's and the form factors'.
 constexpr double kSolverShare = 0.4;
+// An estimate counts from so many places on; what asks for a word is so many times the error asked for.
+constexpr std::size_t kEnoughPlaces = 64;
+constexpr double kFarAbove = 3;
 
 }  // namespace
 
@@ -87,6 +91,24 @@ void Solve::Impl::noteMissingRoom() {
                          {},
                          "--keep " + megabytes(needed * 11 / 10) + ", fewer --elements" +
                              (other_mode ? ", or the mode kept-first" : "")});
+}
+
+// Once, where the mesh was to be as fine as the error asks for and is far from it.
+void Solve::Impl::noteMissedError() {
+  const ErrorEstimate& estimate = budget->estimates().both;
+  if (error_noted || !mesh->base || progress_state != SolveState::kConverged ||
+      estimate.places < kEnoughPlaces || estimate.value < kFarAbove * options.error)
+    return;
+  error_noted = true;
+  const auto percent = [](double x) { return figureText(100 * x) + " %"; };
+  diagnostics.push_back({Severity::kWarning,
+                         "error-missed",
+                         "the error is estimated to be " + percent(estimate.value) + " (" +
+                             percent(estimate.low) + " to " + percent(estimate.high) + "), and " +
+                             percent(options.error) +
+                             " was asked for: some light changes faster than the mesh",
+                         {},
+                         "a smaller --error; for lamps close to a wall, --emit front or many --elements"});
 }
 
 }  // namespace unshot

@@ -45,7 +45,7 @@ struct Solve::Impl {
   std::optional<Error> failure;
   Measures measures;
   std::vector<HistoryEntry> history;
-  bool resting = false, mode_failed = false, room_noted = false;
+  bool resting = false, mode_failed = false, room_noted = false, error_noted = false;
   DraftRefinement drafts;
   double measured_wall = 0, measured_cpu = 0;  // when `measures` were taken
   SharedFields shared;
@@ -68,6 +68,7 @@ struct Solve::Impl {
   void checkLimits();
   void checkStagnation();
   void noteMissingRoom();
+  void noteMissedError();
   double target() const;
   std::vector<glm::dvec3> shownIrradiance() const;
   void finish(std::string why);

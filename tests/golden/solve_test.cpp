@@ -97,6 +97,25 @@ TEST(Solve, AResolutionForNoHemicubesIsSaid) {
   }
 }
 
+// A lamp a hundredth below the ceiling shines upwards: all light is what leaves the gap above it, which
+// patches that lie half above the lamp let out too easily.
+TEST(Solve, SaysWhereTheErrorAskedForIsMissed) {
+  const TempFolder folder;
+  const auto solve = [&](const std::string& lamp) {
+    folder.write("room.mtl", testing_support::kMaterials);
+    folder.write("room.obj", testing_support::roomObj("white", "white") +
+                                 "usemtl light\nv 0.42 0.99 0.42\nv 0.63 0.99 0.42\nv 0.63 0.99 0.61\n"
+                                 "v 0.42 0.99 0.61\n" +
+                                 lamp);
+    return runProgram(folder, {"solve", "room.obj", "--emit", "front"});
+  };
+  const ProgramResult upwards = solve("f 12 11 10 9\n"), downwards = solve("f 9 10 11 12\n");
+  EXPECT_EQ(upwards.code, 0);
+  EXPECT_EQ(downwards.code, 0);
+  EXPECT_THAT(upwards.err, HasSubstr("was asked for: some light changes faster than the mesh"));
+  EXPECT_THAT(downwards.err, Not(HasSubstr("was asked for")));
+}
+
 TEST(Solve, TheSameTwiceIsTheSame) {
   const TempFolder folder;
   writeRoom(folder);
