@@ -121,7 +121,8 @@ void runCamera(Viewer& viewer, const std::string& text) {
 }
 
 void runElements(Viewer& viewer, const std::string& text) {
-  viewer.ui().options.elements = whole(text);
+  const std::uint64_t elements = whole(text);
+  viewer.ui().options.elements = elements > 0 ? std::optional(elements) : std::nullopt;
   viewer.ui().options.element_size.reset();
   viewer.restart();
 }
@@ -189,8 +190,8 @@ const std::
                          v.restart();
                        },
                        [](const std::string& a) { return checkKey(formFactorMethods(), true, a); }},
-                Action{"elements", "N", "Solve again on a mesh of about N elements", kNone, runElements,
-                       checkWhole<1, kMostElements>},
+                Action{"elements", "N", "Solve again on a mesh of about N elements (0: chosen)", kNone,
+                       runElements, checkWhole<0, kMostElements>},
                 Action{"hemicube", "N", "Solve again with hemicubes of N pixels (even; 0: chosen)", kNone,
                        [](Viewer& v, const std::string& a) {
                          v.ui().options.hemicube_resolution = static_cast<std::uint32_t>(whole(a));

@@ -53,6 +53,8 @@ namespace {
 constexpr double kBaseElements = 2'500;
 // The error falls with so much of a power of their number.
 constexpr double kOrder = 0.75;
+// Beyond, time grows with the square for little.
+constexpr double kFewestBase = 100, kMostBase = 10'000;
 // Rays take a look from each vertex at each patch, hemicubes a picture of each patch and no more. So many
 // looks are some ten seconds: the teapot in its box, 4e8 of them, is sooner by hemicubes, two_rooms, 2e7, by
 // rays.
@@ -75,7 +77,7 @@ std::shared_ptr<const Mesh> baseMesh(const Scene& scene, const SolveOptions& opt
                                      const CancelToken& cancel) {
   const double wanted = kBaseElements * std::pow(0.01 / options.error, 1 / kOrder);
   const auto elements = static_cast<std::uint64_t>(
-      std::min(std::clamp(wanted, 100.0, 100'000.0), static_cast<double>(options.max_elements)));
+      std::min(std::clamp(wanted, kFewestBase, kMostBase), static_cast<double>(options.max_elements)));
   Mesh mesh = buildMesh(scene, {elements, {}, options.emit_front_only, true}, cancel);
   std::erase_if(mesh.diagnostics, [](const Diagnostic& d) { return d.code == "element-count"; });
   return std::make_shared<const Mesh>(std::move(mesh));

@@ -79,7 +79,7 @@ std::string errorOf(const Job& job, const fs::path& answers) {
 }  // namespace
 
 void printSceneTable(const std::vector<fs::path>& folders, double seconds) {
-  std::printf("unshot solve --error 0.001 --max-seconds %g, a process for each scene\n", seconds);
+  std::printf("unshot solve --max-seconds %g, a process for each scene\n", seconds);
   std::printf("(nRMSE of reflected light where there are reference values.)\n\n");
   TextTable table({"scene", "triangles", "elements", "mesh s", "solve s", "CPU s", "shots", "unshot", "nRMSE",
                    "peak MB"});
@@ -87,7 +87,6 @@ void printSceneTable(const std::vector<fs::path>& folders, double seconds) {
     for (const Job& job : jobsOf(folder)) {
       const TempFolder work;
       std::vector<std::string> arguments{"solve",         fs::absolute(job.scene).string(),
-                                         "--error",       "0.001",
                                          "--emit",        job.emit,
                                          "--report",      work / "report.json",
                                          "--max-seconds", figure("%g", seconds)};

@@ -255,6 +255,8 @@ TEST(LiveViewer, EveryModeMethodAndFinenessConverges) {
   again("form-factors", "auto");
   again("elements", "600");
   EXPECT_NEAR(static_cast<double>(live->state().facts->elements), 600, 100);
+  again("elements", "0");
+  EXPECT_FALSE(live->ui().options.elements.has_value());
   again("hemicube", "32");
   again("hemicube", "0");
   for (const IterationModeRow& mode : iterationModes()) {
