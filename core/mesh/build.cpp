@@ -161,6 +161,7 @@ void gridForCount(Mesh& mesh, double wanted, bool paired, const Contacts& contac
                   const CancelToken& cancel) {
   double least = 0;
   for (const Surface& s : mesh.surfaces) least += litSides(s);
+  if (paired) wanted += least;
   // More sides than elements asked for: large surfaces are still cut as finely as the number says by area.
   if (least > 0.9 * wanted) {
     gridAll(mesh, std::vector<double>(mesh.surfaces.size(), std::sqrt(mesh.lit_area / wanted)), paired,

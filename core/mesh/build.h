@@ -17,6 +17,7 @@ struct MeshOptions {
   bool emit_front_only = false;
   /// Patches of two by two cells, over which light is taken to be quadratic, not of as many as give about a
   /// thousand patches: for meshes that are refined afterwards.
+  /// `elements` then counts those beyond one a side: small things must not leave large walls without.
   bool paired_cells = false;
 };
 

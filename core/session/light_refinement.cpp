@@ -30,6 +30,9 @@ constexpr double kNegligible = 0.02;
 constexpr double kMostLooks = 1e7;
 // Vertices of an element, about.
 constexpr double kVertices = 2;
+// Elements of the mesh for each of the base, in the mean: there are as many vertices to display, and light
+// from elsewhere is no better known.
+constexpr double kMostParts = 8;
 
 // Asked of each part of a cell: whether light in it is not what interpolation makes of that at its corners.
 class LightQuestion {
@@ -54,18 +57,35 @@ class LightQuestion {
 
   bool operator()(const CellPart& part) {
     cancel_.check();
-    const bool enough = elements_ + 3 > options_.most_elements || looksFor(known_.size()) > kMostLooks ||
-                        looksFor(elements_) * kVertices > kMostLooks;
-    if (tolerance_ <= 0 || enough) return false;
+    if (tolerance_ <= 0 || full_) return false;
     const Surface& surface = base_.surfaces[part.surface];
     bool split = false;
     for (const std::uint32_t side : surface.side)
       split = split || (side != kNone && differs(part, surface, side));
     if (split) elements_ += 3;
+    full_ = static_cast<double>(elements_) > most() || looksFor(known_.size()) > kMostLooks;
     return split;
   }
 
+  // Whether it ended before every part was asked for: then what lies behind would have less than its share.
+  bool full() const { return full_; }
+  // Again from the start, content with twice the difference; false where no more points can be looked at.
+  bool relax() {
+    tolerance_ *= 2;
+    elements_ = base_.element_count;
+    full_ = false;
+    return looksFor(known_.size()) <= kMostLooks;
+  }
+
  private:
+  // Elements: as many as are allowed, of the base about so many each, and no more than can be looked at.
+  double most() const {
+    const double looks = kMostLooks / kVertices / std::max(looksFor(1), 1.0);
+    return std::max(
+        std::min({static_cast<double>(options_.most_elements), kMostParts * base_.element_count, looks}),
+        static_cast<double>(base_.element_count));
+  }
+
   double looksFor(std::size_t points) const {
     return static_cast<double>(points) * static_cast<double>(light_.emitterCount());
   }
@@ -132,6 +152,7 @@ class LightQuestion {
   const CancelToken& cancel_;
   DirectLight light_;
   std::uint64_t elements_;
+  bool full_ = false;
   double tolerance_ = 0;  // [W/m^2], channels summed; 0: nothing is asked for
   std::unordered_map<std::uint64_t, glm::dvec3> known_;
 };
@@ -141,16 +162,12 @@ class LightQuestion {
 std::shared_ptr<const Mesh> refineForLight(std::shared_ptr<const Mesh> base, const LightRefinement& options,
                                            const CancelToken& cancel) {
   LightQuestion question(*base, options, cancel);
-  bool any = false;
-  auto mesh = std::make_shared<Mesh>(refineMesh(
-      base,
-      [&](const CellPart& part) {
-        const bool split = question(part);
-        any = any || split;
-        return split;
-      },
-      cancel));
-  return any ? mesh : base;
+  for (;;) {
+    auto mesh = std::make_shared<Mesh>(refineMesh(
+        base, [&](const CellPart& part) { return question(part); }, cancel));
+    if (!question.full()) return mesh->element_count > base->element_count ? mesh : base;
+    if (!question.relax()) return base;
+  }
 }
 
 }  // namespace unshot

@@ -56,9 +56,11 @@ constexpr double kOrder = 0.75;
 // Beyond, time grows with the square for little.
 constexpr double kFewestBase = 100, kMostBase = 10'000;
 // Rays take a look from each vertex at each patch, hemicubes a picture of each patch and no more. So many
-// looks are some ten seconds: the teapot in its box, 4e8 of them, is sooner by hemicubes, two_rooms, 2e7, by
+// looks are some ten seconds: the teapot in its box, 4e8 of them, is sooner by hemicubes, two_rooms, 3e7, by
 // rays.
-constexpr double kMostLooks = 1e8;
+constexpr double kMostLooks = 4e7;
+// Of scenes with more than so many triangles that needs no mesh to be known.
+constexpr std::size_t kMostTriangles = 50'000;
 
 bool atVertices(const std::string& method) {
   return findChoice(formFactorMethods(), method, "form-factor method").receivers == ReceiverKind::kVertices;
@@ -112,20 +114,21 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
   const double mesh_began = wallSeconds();
   out.form_factors = options.form_factors;
   out.mesh = options.mesh;
-  bool to_refine = !options.mesh && !finenessGiven(options) &&
-                   (out.form_factors == "auto" || atVertices(out.form_factors));
+  const bool automatic = out.form_factors == "auto", may_follow = !options.mesh && !finenessGiven(options);
+  const bool soonest = options.soonest && scene.triangle_count <= kMostTriangles;
+  bool to_refine = may_follow && (automatic ? soonest : atVertices(out.form_factors));
   if (!out.mesh)
     out.mesh = to_refine ? baseMesh(scene, options, cancel) : uniformMesh(scene, options, cancel);
   PlanDecision choice;
-  if (out.form_factors == "auto") {
+  if (automatic) {
     const double looks =
         static_cast<double>(out.mesh->vertices.size()) * static_cast<double>(out.mesh->patch_count);
-    const bool rays = options.soonest && looks <= kMostLooks;
+    const bool rays = soonest && looks <= kMostLooks;
     out.form_factors = nothingCanOcclude(*out.mesh) ? "closed-form" : rays ? "rays" : "hemicube";
-    if (to_refine && !atVertices(out.form_factors)) {
-      to_refine = false;
-      out.mesh = uniformMesh(scene, options, cancel);
-    }
+    const bool follows = may_follow && atVertices(out.form_factors);
+    if (follows != to_refine)
+      out.mesh = follows ? baseMesh(scene, options, cancel) : uniformMesh(scene, options, cancel);
+    to_refine = follows;
     if (out.form_factors == "rays")
       choice = {"hemicubes and OpenGL for the solution",
                 "shadow rays see as much from " + std::to_string(out.mesh->vertices.size()) +

@@ -71,8 +71,10 @@ Ratio ratioOf(const std::vector<double>& t, const std::vector<double>& s) {
 
 ErrorEstimate estimateOf(const Ratio& square, std::size_t places) {
   const auto root = [](double x) { return std::sqrt(std::max(x, 0.0)); };
-  return {root(square.value), root(square.value - kInterval * square.error),
-          root(square.value + kInterval * square.error), places};
+  // Below 0 it is by noise, which leaves room for an error all the same.
+  const double value = std::max(square.value, 0.0);
+  return {root(value), root(value - kInterval * square.error), root(value + kInterval * square.error),
+          places};
 }
 
 // Squared nRMSE of what the residuals cause. `residuals` has patch, of_look[2], reflected; they are spread

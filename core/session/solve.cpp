@@ -200,6 +200,8 @@ void Solve::step() {
   bool refined = true;
   if (s.drafts.due(*s.transport, s.measures.solverBound() <= s.target())) {
     s.refine();
+  } else if (s.lacksBound() && s.completeColumns()) {
+    refined = false;
   } else if (const auto used = s.iterate()) {
     s.measures.shots += *used;
     refined = false;

@@ -9,6 +9,9 @@ namespace {
 
 // Of the error asked for, where it is that of the whole: the rest is the mesh's and the form factors'.
 constexpr double kSolverShare = 0.4;
+// Of that share: what may be unshot where there is no bound yet. Shots alone would ask for the columns that a
+// bound needs long after they have nothing left to do.
+constexpr double kLittleUnshot = 0.25;
 // An estimate counts from so many places on; what asks for a word is so many times the error asked for.
 constexpr std::size_t kEnoughPlaces = 64;
 constexpr double kFarAbove = 3;
@@ -37,6 +40,21 @@ void Solve::Impl::finish(std::string why) {
 void Solve::Impl::sharpen() {
   local_pass->advance(*transport);
   if (!local_pass->running()) stop(SolveState::kConverged, *std::exchange(finished_by, std::nullopt));
+}
+
+bool Solve::Impl::lacksBound() const {
+  return !options.bounces && measures.solverBound() >= kNoBound &&
+         measures.unshot_fraction < kLittleUnshot * target();
+}
+
+// Computes a column that no shot has asked for yet; false where none is left that light could take.
+bool Solve::Impl::completeColumns() {
+  for (; next_column < mesh->patch_count; ++next_column) {
+    if (transport->quality(next_column) || state->reflectance()[next_column] == glm::dvec3(0.0)) continue;
+    transport->column(next_column++);
+    return true;
+  }
+  return false;
 }
 
 // Whether the error asked for is reached, held against the bound as it is at its sharpest (which may be one

@@ -46,6 +46,7 @@ struct Solve::Impl {
   Measures measures;
   std::vector<HistoryEntry> history;
   bool resting = false, mode_failed = false, room_noted = false, error_noted = false;
+  std::uint32_t next_column = 0;  // all before are known, or nothing arrives there
   DraftRefinement drafts;
   double measured_wall = 0, measured_cpu = 0;  // when `measures` were taken
   SharedFields shared;
@@ -75,6 +76,8 @@ struct Solve::Impl {
   void sharpen();
   void record();
   void refine();
+  bool lacksBound() const;
+  bool completeColumns();
   std::optional<std::size_t> iterate();
 };
 
