@@ -28,7 +28,7 @@ class FactorPolygon {
   double exact(const glm::dvec3& point, const glm::dvec3& normal, std::vector<glm::dvec3>& scratch) const {
     return pointToPolygonFactor(point, normal, corners_, scratch);
   }
-  /// The same within 0.2 % and a good deal sooner: from farther away than four radii, and wholly above the
+  /// The same within 0.3 % and a good deal sooner: from farther away than four radii, and wholly above the
   /// horizon, as a sum over a few points of the polygon (Gauss's rule on a parallelogram, Hammer and Stroud's
   /// on a triangle).
   double quick(const glm::dvec3& point, const glm::dvec3& normal, std::vector<glm::dvec3>& scratch) const;

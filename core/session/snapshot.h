@@ -24,7 +24,7 @@ struct Measures {
   SolverBounds bounds;         ///< of the solver's error
   /// That error itself, as bounds.upper counts it: once the mode `direct` has solved this system.
   std::optional<double> true_error;
-  /// The figure that SolveOptions::error is held against: bounds.upper where there is one, else
+  /// The figure that is held against Solve::solverTarget: bounds.upper where there is one, else
   /// bounds.total_upper.
   double solverBound() const { return bounds.upper < kNoBound ? bounds.upper : bounds.total_upper; }
   /// What the same error is at least; 0 where nothing is known.

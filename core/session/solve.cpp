@@ -191,11 +191,7 @@ void Solve::step() {
   Impl& s = *impl_;
   if (s.progress_state != SolveState::kRunning) return;
   s.wakeClocks();
-  if (s.finished_by) {
-    s.sharpen();
-    s.measure();
-    return;
-  }
+  if (s.finished_by) return s.sharpen();
   bool nothing_left = false;
   bool refined = true;
   if (s.drafts.due(*s.transport, s.measures.solverBound() <= s.target())) {

@@ -37,9 +37,15 @@ void Solve::Impl::finish(std::string why) {
   local_pass->begin(*state, makeField(*mesh, transport->receivers(), state->irradiance()).elements);
 }
 
+// Goes on with the local pass, which brings the good end nearer to the truth but is no condition of it.
 void Solve::Impl::sharpen() {
   local_pass->advance(*transport);
-  if (!local_pass->running()) stop(SolveState::kConverged, *std::exchange(finished_by, std::nullopt));
+  const SolverBounds reached_with = measures.bounds;  // of the same state, and sharpened
+  measure();
+  measures.bounds = SolverBounds::tighter(measures.bounds, reached_with);
+  const bool out_of_time = options.max_seconds && measures.seconds >= *options.max_seconds;
+  if (!local_pass->running() || out_of_time)
+    stop(SolveState::kConverged, *std::exchange(finished_by, std::nullopt));
 }
 
 bool Solve::Impl::lacksBound() const {

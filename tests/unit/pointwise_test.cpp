@@ -82,7 +82,7 @@ TEST_P(PointwiseFactors, AreTheClosedFormWhereNothingStandsBetween) {
       const Column got = method->column(q), wanted = exact->column(q);
       ASSERT_EQ(got.k.size(), wanted.k.size());
       for (std::size_t v = 0; v < got.k.size(); ++v)
-        EXPECT_NEAR(got.k[v], wanted.k[v], 2e-3 * static_cast<double>(wanted.k[v])) << q;
+        EXPECT_NEAR(got.k[v], wanted.k[v], 3e-3 * static_cast<double>(wanted.k[v])) << q;
     }
   }
 }

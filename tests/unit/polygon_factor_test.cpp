@@ -192,7 +192,7 @@ TEST(PolygonFactor, HasTheMeansOfTheClosedFormsForPairsOfRectangles) {
   EXPECT_NEAR(mean(wall(0.7, 0.3), 0.7, 0.5), 0.175145070955, 1e-8);
 }
 
-// Against the exact factor, for rectangles, triangles and hexagons in any position: within 0.2 % of it
+// Against the exact factor, for rectangles, triangles and hexagons in any position: within 0.3 % of it
 // wherever the quick sum stands in for it.
 TEST(FactorPolygon, QuickIsNearlyExact) {
   Dice dice(31);
@@ -224,7 +224,7 @@ TEST(FactorPolygon, QuickIsNearlyExact) {
     worst = std::max(worst, std::abs(quick / exact - 1));
   }
   EXPECT_GT(far, 300);
-  EXPECT_LT(worst, 2e-3);
+  EXPECT_LT(worst, 3e-3);
 }
 
 }  // namespace
