@@ -33,16 +33,22 @@ void elementReceivers(const Mesh& mesh, Receivers& out, const CancelToken& cance
 
 // Sorts by bucket(item) < count, then by `less`; what is equal keeps its order. There are few in a bucket.
 template <class T, class Bucket, class Less>
-void sortInBuckets(std::vector<T>& items, std::size_t count, Bucket&& bucket, Less&& less) {
+void sortInBuckets(std::vector<T>& items, std::size_t count, Bucket&& bucket, Less&& less,
+                   const CancelToken& cancel) {
   std::vector<std::size_t> start(count + 1, 0);
   for (const T& item : items) ++start[bucket(item) + 1];
   std::partial_sum(start.begin(), start.end(), start.begin());
   std::vector<std::size_t> next(start.begin(), start.end() - 1);
   std::vector<T> sorted(items.size());
-  for (const T& item : items) sorted[next[bucket(item)]++] = item;
+  for (const T& item : items) {
+    cancel.check();
+    sorted[next[bucket(item)]++] = item;
+  }
   for (std::size_t b = 0; b < count; ++b) {
+    cancel.check();
     const auto first = sorted.begin() + static_cast<std::ptrdiff_t>(start[b]);
-    std::stable_sort(first, sorted.begin() + static_cast<std::ptrdiff_t>(start[b + 1]), less);
+    const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(start[b + 1]);
+    for (auto at = first; at != end; ++at) std::rotate(std::upper_bound(first, at, *at, less), at, at + 1);
   }
   items = std::move(sorted);
 }
@@ -88,7 +94,7 @@ void viewsOfVertices(const Mesh& mesh, std::vector<Corner> corners, Receivers& o
                      const CancelToken& cancel) {
   sortInBuckets(
       corners, mesh.vertices.size(), [](const Corner& c) { return c.vertex; },
-      cancel.checking([](const Corner& a, const Corner& b) { return a.side < b.side; }));
+      [](const Corner& a, const Corner& b) { return a.side < b.side; }, cancel);
   out.view_start.assign(mesh.vertices.size() + 1, 0);
   for (auto first = corners.begin(); first != corners.end();) {
     const auto end = std::find_if(first, corners.end(), [&](const Corner& c) {
@@ -111,7 +117,7 @@ void setShares(std::vector<PatchShare> shares, Receivers& out, const CancelToken
   const std::size_t count = out.area.size();
   sortInBuckets(
       shares, count, [](const PatchShare& s) { return s.receiver; },
-      cancel.checking([](const PatchShare& a, const PatchShare& b) { return a.patch < b.patch; }));
+      [](const PatchShare& a, const PatchShare& b) { return a.patch < b.patch; }, cancel);
   std::size_t next = 0;
   for (std::uint32_t v = 0; v < count; ++v) {
     for (; next < shares.size() && shares[next].receiver == v; ++next) {
