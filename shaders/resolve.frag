@@ -10,13 +10,17 @@ uniform ivec2 origin;         // of the viewport in the target
 uniform float exposure;
 uniform bool tone_mapped;
 uniform vec3 background;      // linear values of the display
+uniform vec3 sky;             // linear, where the picture shows light and there is a sky behind it; else 0
 uniform float edge_strength;  // 0..1
 
 layout(location = 0) out vec4 displayed;
 layout(location = 1) out vec4 linear;
 
 vec3 display(vec4 s) {
-  if (s.a == 0.0) return background;
+  if (s.a == 0.0) {
+    if (sky == vec3(0.0)) return background;
+    s.rgb = sky;
+  }
   vec3 exposed = min(s.rgb * exposure, vec3(1e4));
   vec3 c = tone_mapped ? toneMap(exposed) : min(exposed, 1.0);
   // Edges darken what is light and lighten what is dark.
@@ -33,7 +37,7 @@ void main() {
     for (int x = 0; x < factor; ++x) {
       vec4 s = texelFetch(samples, first + ivec2(x, y), 0);
       display_sum += display(s);
-      linear_mean += weight * (s.a == 0.0 ? vec3(0.0) : s.rgb);
+      linear_mean += weight * (s.a == 0.0 ? sky : s.rgb);
     }
   }
   displayed = vec4(srgbFromLinear(weight * display_sum), 1.0);

@@ -16,6 +16,7 @@
 #include "report/reference_error.h"
 #include "report/reference_file.h"
 #include "scene/obj_reader.h"
+#include "scene/sky.h"
 
 namespace unshot {
 namespace {
@@ -89,6 +90,7 @@ class SceneRun {
     ReferenceOptions options;
     options.seed = request_.options.seed;
     options.emit_front_only = request_.options.emit_front_only;
+    options.sky = skyOver(scene_, request_.options.sky);
     options.relative_error = kReferenceError;
     options.max_seconds = request_.reference_seconds;
     options.progress = watch(0, 0, 1, "tracing the reference");

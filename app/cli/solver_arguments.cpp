@@ -5,6 +5,7 @@
 #include "gl/context.h"
 #include "gl/shaders.h"
 #include "mesh/build.h"
+#include "scene/sky.h"
 #include "solver/modes.h"
 
 namespace unshot {
@@ -15,6 +16,13 @@ constexpr double kBytesPerMb = 1e6;
 Check emitText() {
   return [](const std::string& text) -> std::string {
     return text == "both" || text == "front" ? "" : "'" + text + "' is neither both nor front";
+  };
+}
+
+Check skyText() {
+  return [](const std::string& text) -> std::string {
+    return parseSky(text) ? ""
+                          : "'" + text + "' is not r,g,b (three numbers from 0 on with commas, no blanks)";
   };
 }
 
@@ -44,6 +52,10 @@ void SolverArguments::addSolver(Command& command, SolverUse use) {
       "Pixels along an edge of the hemicube, even, 16 to 4096 (default 64); lights get up to 4 times as many",
       wholeNumber(16, 4096, true));
   command.add("--emit", emit_, "both|front", "Sides on which light sources emit (default both)", emitText());
+  command.add(
+      "--sky", sky_, "r,g,b",
+      "Radiosity of a uniform sky around the scene [W/m^2] (default 0,0,0, or 1,1,1 where no face emits)",
+      skyText());
   command.add("--keep", kept_mb_, "MB", "Memory for form factors that are kept [MB] (default 1074)",
               wholeNumber(0, 1'000'000));
   command.add("--seed", options_.seed, "N", "Start of the random numbers (default 1)", wholeNumber(0));
@@ -98,6 +110,7 @@ void SolverArguments::addBounces(Command& command) {
 SolveOptions SolverArguments::options() const {
   SolveOptions options = options_;
   options.emit_front_only = emit_ == "front";
+  if (!sky_.empty()) options.sky = parseSky(sky_);
   if (kept_mb_) options.kept_bytes = static_cast<std::size_t>(static_cast<double>(*kept_mb_) * kBytesPerMb);
   return options;
 }

@@ -34,7 +34,7 @@ class SolverArguments {
   void addBounces(Command& command);
 
   SolveOptions options_;
-  std::string gl_ = "auto", shader_dir_, emit_ = "both";
+  std::string gl_ = "auto", shader_dir_, emit_ = "both", sky_;
   std::optional<std::uint64_t> kept_mb_;
 };
 

@@ -11,6 +11,7 @@
 #include "formfactor/methods.h"
 #include "mesh/build.h"
 #include "render/display_modes.h"
+#include "scene/sky.h"
 #include "solver/bounce_series.h"
 #include "solver/modes.h"
 #include "viewer/viewer.h"
@@ -192,6 +193,19 @@ const std::
                        [](const std::string& a) { return checkKey(formFactorMethods(), true, a); }},
                 Action{"elements", "N", "Solve again on a mesh of about N elements (0: chosen)", kNone,
                        runElements, checkWhole<0, kMostElements>},
+                Action{"sky", "r,g,b",
+                       "Solve again under a uniform sky of this radiosity [W/m^2] (auto: 1,1,1 where no face "
+                       "emits)",
+                       kNone,
+                       [](Viewer& v, const std::string& a) {
+                         v.ui().options.sky = parseSky(a);
+                         v.restart();
+                       },
+                       [](const std::string& a) {
+                         return a == "auto" || parseSky(a)
+                                    ? ""
+                                    : "'" + a + "' is no sky r,g,b of numbers from 0 on, nor auto";
+                       }},
                 Action{"hemicube", "N", "Solve again with hemicubes of N pixels (even; 0: chosen)", kNone,
                        [](Viewer& v, const std::string& a) {
                          v.ui().options.hemicube_resolution = static_cast<std::uint32_t>(whole(a));
@@ -223,9 +237,9 @@ const std::
                                                  : std::optional(static_cast<std::uint32_t>(whole(a))));
                        },
                        checkBounces},
-                Action{"complete-bounces", "",
-                       "Compute at rest the form factors that light by bounces still lacks", kNone,
-                       [](Viewer& v, const std::string&) { v.completeBounces(); }},
+                Action{"complete-bounces",
+                       "", "Compute at rest the form factors that light by bounces still lacks",
+                       kNone, [](Viewer& v, const std::string&) { v.completeBounces(); }},
                 Action{"remember",
                        "",
                        "Remember this light, for the difference from it (display difference)",

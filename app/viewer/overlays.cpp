@@ -103,7 +103,7 @@ void buildOverlays(Viewer& viewer, int scene_width, const std::string& notice, b
   } else if (state.phase == SessionPhase::kEmpty && !viewer.error()) {
     line("empty", "Drop an OBJ scene here", {middle, height / 2}, {0.5f, 0.5f});
   } else if (state.stopped_by == "no light") {
-    line("dark", "No face of this scene emits light: give a material an emission (Ke above 0)",
+    line("dark", "No light: no face of this scene emits any (Ke above 0), nor does a sky",
          {middle, height / 2}, {0.5f, 0.5f});
   }
   if (viewer.error()) {

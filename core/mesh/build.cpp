@@ -27,8 +27,8 @@ std::uint32_t patchCells(double elements) {
   return cells;
 }
 
-// A side is left out only if nothing of the scene lies in front of it: then no light reaches it and its own
-// meets nothing.
+// A side is left out only if nothing of the scene lies in front of it and there is no sky: then no light
+// reaches it and its own meets nothing.
 void makeSides(const Scene& scene, const MeshOptions& options, Mesh& mesh, const CancelToken& cancel) {
   std::vector<glm::dvec3> used;
   used.reserve(mesh.triangles.size() * 3);
@@ -47,9 +47,10 @@ void makeSides(const Scene& scene, const MeshOptions& options, Mesh& mesh, const
     return tree.anyInFront(normal, glm::dot(normal, surface.origin) + margin);
   };
   // A flat sheet sees nothing at all; it is kept whole, so that it can be shown.
-  const bool keep_all = std::none_of(mesh.surfaces.begin(), mesh.surfaces.end(), [&](const Surface& s) {
-    return seesSomething(s, false) || seesSomething(s, true);
-  });
+  const bool keep_all =
+      options.sky || std::none_of(mesh.surfaces.begin(), mesh.surfaces.end(), [&](const Surface& s) {
+        return seesSomething(s, false) || seesSomething(s, true);
+      });
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
     Surface& surface = mesh.surfaces[s];
     for (int back = 0; back < 2; ++back) {

@@ -19,6 +19,8 @@ struct MeshOptions {
   /// thousand patches: for meshes that are refined afterwards.
   /// `elements` then counts those beyond one a side: small things must not leave large walls without.
   bool paired_cells = false;
+  /// Light comes from outside the scene too: no side is left out.
+  bool sky = false;
 };
 
 inline constexpr std::uint64_t kDefaultElements = 10'000;

@@ -51,6 +51,13 @@ struct SceneRays::Impl {
     if (device) rtcReleaseDevice(device);
   }
 
+  bool meetsAny(RTCRay ray) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(scene, &context, &ray);
+    return ray.tfar < 0;
+  }
+
   void build(std::span<const glm::vec3> positions, std::span<const std::uint32_t> corners) {
     device = rtcNewDevice("threads=1");
     if (!device)
@@ -126,11 +133,11 @@ std::optional<SceneRays::Hit> SceneRays::intersect(const glm::dvec3& origin,
 }
 
 bool SceneRays::occluded(const glm::dvec3& a, const glm::dvec3& b) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  RTCRay ray = rayOf(impl_->scale * a, impl_->scale * (b - a), 1);
-  rtcOccluded1(impl_->scene, &context, &ray);
-  return ray.tfar < 0;
+  return impl_->meetsAny(rayOf(impl_->scale * a, impl_->scale * (b - a), 1));
+}
+
+bool SceneRays::meetsAny(const glm::dvec3& origin, const glm::dvec3& direction) const {
+  return impl_->meetsAny(rayOf(impl_->scale * origin, direction, INFINITY));
 }
 
 glm::dvec3 SceneRays::lifted(const glm::dvec3& point, const glm::dvec3& normal) const {

@@ -44,6 +44,8 @@ class SceneRays {
   std::optional<Hit> intersect(const glm::dvec3& origin, const glm::dvec3& direction) const;
   /// Whether some triangle meets the segment from a to b. Any thread.
   bool occluded(const glm::dvec3& a, const glm::dvec3& b) const;
+  /// Whether the ray from there (`direction` of unit length) meets any triangle. Any thread.
+  bool meetsAny(const glm::dvec3& origin, const glm::dvec3& direction) const;
 
   /// The point moved off the surface it lies on, along `normal` (unit length, of the side that is meant).
   glm::dvec3 lifted(const glm::dvec3& point, const glm::dvec3& normal) const;

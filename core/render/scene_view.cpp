@@ -152,6 +152,7 @@ void SceneView::beginSnapshot(const std::shared_ptr<const Snapshot>& snapshot) {
   };
   if (all || direct_field_ != snapshot->direct) direct_reference_.reset();
   bounce_light_ = snapshot->bounce_light;
+  sky_ = snapshot->sky;
   shared(direct_, vertices, direct_field_, snapshot->direct, glm::vec3());
   shared(element_direct_, elements, element_direct_field_, snapshot->element_direct, glm::vec4());
   shared(bounces_, vertices, bounces_field_, snapshot->bounces, glm::vec3());
@@ -384,6 +385,9 @@ void SceneView::resolve(const LinearTarget& samples, double automatic_exposure, 
   fn.Uniform1f(program.uniform("exposure"), finiteValue(scale));
   fn.Uniform1i(program.uniform("tone_mapped"), mode.tone_mapped);
   fn.Uniform3f(program.uniform("background"), kBackground, kBackground, kBackground);
+  const bool shows_light = mode.quantity == Quantity::kRadiosity || mode.quantity == Quantity::kEmission;
+  const glm::vec3 sky = shows_light ? glm::vec3(sky_) : glm::vec3(0.0f);
+  fn.Uniform3f(program.uniform("sky"), sky.x, sky.y, sky.z);
   // A line is one sample wide: where it covers part of a pixel it is drawn the stronger.
   fn.Uniform1f(program.uniform("edge_strength"),
                std::min(1.0f, 0.35f * static_cast<float>(options.supersampling)));

@@ -109,6 +109,7 @@ class SceneView {
   Uploads mesh_uploads_, field_uploads_;
   SharedField direct_field_, element_direct_field_, bounces_field_, residual_field_;  // as uploaded
   Bounds bounds_;
+  glm::dvec3 sky_{0.0};
   gl::Program display_program_, by_pixel_program_, resolve_program_;
   gl::VertexArray vertex_array_, no_attributes_;
   std::shared_ptr<const BounceLight> bounce_light_;         // of the snapshot

@@ -25,9 +25,9 @@ SolverError solverError(const Mesh& mesh, std::span<const glm::dvec3> radiosity,
                         std::span<const glm::dvec3> exact) {
   const auto emission = [&](std::size_t q) { return mesh.sides[mesh.patch_side[q]].emission; };
   bool all_emit = true;
-  for (std::size_t q = 0; q < exact.size() && all_emit; ++q) all_emit = emission(q) != glm::dvec3(0.0);
+  for (std::uint32_t q = 0; q < mesh.patch_count && all_emit; ++q) all_emit = emission(q) != glm::dvec3(0.0);
   double squares = 0, reflected_squares = 0, absolute = 0, reflected = 0;
-  for (std::size_t q = 0; q < exact.size(); ++q) {
+  for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
     const glm::dvec3 e = emission(q);
     if (e != glm::dvec3(0.0) && !all_emit) continue;
     const glm::dvec3 error = radiosity[q] - exact[q], light = exact[q] - e;

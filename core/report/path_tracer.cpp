@@ -77,12 +77,13 @@ struct PathTracer::Draws {
   }
 };
 
-PathTracer::PathTracer(const Scene& scene, bool emit_front_only)
+PathTracer::PathTracer(const Scene& scene, bool emit_front_only, const glm::dvec3& sky)
     : triangles_(trianglesOf(scene)),
       rays_(scene.positions, triangles_.corners),
       materials_(scene.materials),
       material_of_(triangles_.size()),
       emit_front_only_(emit_front_only),
+      sky_(sky),
       density_(triangles_.size(), 0.0) {
   double sum = 0;
   for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
@@ -96,8 +97,9 @@ PathTracer::PathTracer(const Scene& scene, bool emit_front_only)
     density_[t] = e.x + e.y + e.z;
   }
   if (!(sum > 0)) {
+    if (sky != glm::dvec3(0.0)) return;
     throw Error(ErrorKind::kInput, "nothing in the scene emits light, so there is no reference to trace",
-                scene.path.string(), "a material with Ke above 0");
+                scene.path.string(), "a material with Ke above 0, or a --sky");
   }
   for (double& power : cumulative_power_) power /= sum;
   cumulative_power_.back() = 1;
@@ -114,6 +116,7 @@ glm::dvec3 PathTracer::emission(std::uint32_t triangle, bool back) const {
 
 glm::dvec3 PathTracer::sampleEmitter(const glm::dvec3& point, const glm::dvec3& normal, double u,
                                      double v) const {
+  if (emitters_.empty()) return glm::dvec3(0.0);
   const auto found = std::upper_bound(cumulative_power_.begin(), cumulative_power_.end() - 1, u);
   const auto index = static_cast<std::size_t>(found - cumulative_power_.begin());
   const double below = index > 0 ? cumulative_power_[index - 1] : 0;
@@ -145,7 +148,10 @@ glm::dvec3 PathTracer::path(glm::dvec3 point, glm::dvec3 normal, Draws& draws) c
     irradiance += throughput * sampleEmitter(point, normal, on_emitter.x, on_emitter.y);
     const glm::dvec3 direction = cosineDirection(normal, on_disk.x, on_disk.y);
     const auto hit = rays_.intersect(rays_.lifted(point, normal), direction);
-    if (!hit) break;
+    if (!hit) {
+      irradiance += throughput * sky_;
+      break;
+    }
     if (density_[hit->triangle] > 0) {
       const double of_direction = glm::dot(direction, normal) / kPi;
       const double cosine = -glm::dot(direction, hit->normal);

@@ -41,7 +41,7 @@ class Tracing {
   Tracing(const Scene& scene, const ReferenceOptions& options, Reference& reference)
       : options_(options),
         origin_(scene.frame_origin),
-        tracer_(scene, options.emit_front_only),
+        tracer_(scene, options.emit_front_only, options.sky),
         points_(reference.points),
         tallies_(points_.size()),
         start_(wallSeconds()) {

@@ -51,6 +51,7 @@ struct ReferenceOptions {
   std::size_t points = 256;
   std::uint64_t seed = 1;
   bool emit_front_only = false;
+  glm::dvec3 sky{0.0};  ///< its radiosity [W/m^2]
   /// Traced until RMS(standard error) / RMS(reflected radiosity) is no larger, and the median over points of
   /// standard error / reflected radiosity no larger than twice it; or until a limit is met.
   double relative_error = 0.01;

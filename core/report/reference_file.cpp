@@ -178,6 +178,7 @@ std::uint64_t referenceHash(const Scene& scene, const ReferenceOptions& options)
   Hash hash;
   hash.add(kVersion);
   hash.add(std::uint64_t{options.emit_front_only});
+  if (options.sky != glm::dvec3(0.0)) hash.add(options.sky);
   hash.add(options.seed);
   hash.add(std::uint64_t{options.places.empty() ? options.points : 0});
   for (const ReferencePlace& place : options.places) {

@@ -27,7 +27,7 @@ glm::dvec3 sideNormal(const SceneRays::Triangle& triangle, bool back) {
 class PointChooser {
  public:
   PointChooser(const Scene& scene, const ReferenceOptions& options)
-      : scene_(scene), options_(options), tracer_(scene, options.emit_front_only) {}
+      : scene_(scene), options_(options), tracer_(scene, options.emit_front_only, options.sky) {}
 
   std::vector<ReferencePoint> run() {
     std::vector<ReferencePoint> points = options_.places.empty() ? randomPoints() : givenPoints();

@@ -104,6 +104,7 @@ std::string reportJson(const RunRecord& record) {
                  {"scene", jsonOf(record.scene, record.scene_path, record.scene_name)},
                  {"diagnostics", jsonOf(record.diagnostics)},
                  {"plan", jsonOf(record.plan)},
+                 {"sky", jsonOf(record.sky)},
                  {"mode", record.mode},
                  {"form_factors", record.form_factors},
                  {"gl", jsonOf(record.gl)},

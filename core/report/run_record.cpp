@@ -12,6 +12,7 @@ RunRecord recordOf(const Solve& solve) {
   record.scene = figuresOf(solve.scene());
   record.diagnostics = solve.diagnostics();
   record.plan = solve.plan();
+  record.sky = solve.sky();
   record.mode = solve.modeKey();
   record.form_factors = solve.formFactorsKey();
   record.solver_target = solve.solverTarget();

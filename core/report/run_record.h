@@ -36,6 +36,7 @@ struct RunRecord {
   SceneFigures scene;
   Diagnostics diagnostics;
   std::vector<PlanDecision> plan;
+  glm::dvec3 sky{0.0};  ///< its radiosity [W/m^2]; 0 where none is seen
   std::string mode;
   std::string form_factors;
   std::optional<GlRecord> gl;  ///< nothing where no GL was needed

@@ -18,6 +18,7 @@
 #include "scene/obj_line_scan.h"
 #include "scene/obj_materials.h"
 #include "scene/obj_text.h"
+#include "scene/sky.h"
 
 namespace unshot {
 namespace {
@@ -116,10 +117,9 @@ void reportStatements(const ObjScan& scan, Scene& scene) {
 }
 
 void reportNoLight(Scene& scene) {
-  const bool lit = std::any_of(scene.polygons.begin(), scene.polygons.end(),
-                               [&](const Polygon& p) { return scene.materials[p.material].emits(); });
-  if (lit) return;
-  scene.diagnostics.push_back({Severity::kWarning, "no-light", "no face emits light: the scene is dark",
+  if (emitsLight(scene)) return;
+  scene.diagnostics.push_back({Severity::kWarning, "no-light",
+                               "no face emits light: all that there is comes from the sky",
                                scene.path.string(), "give a material of the MTL file a Ke"});
 }
 

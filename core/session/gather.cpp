@@ -54,8 +54,9 @@ Gather Gatherer::look(const glm::dvec3& position, const glm::dvec3& normal, std:
       const double u = (i + draws.next()) / kStrata, v = (j + draws.next()) / kStrata;
       const glm::dvec3 direction = cosineDirection(normal, u, v);
       const auto hit = rays_.intersect(eye, direction);
-      out.rays.push_back(hit && hit->side != kNone ? elementOf(hit->surface, hit->side, hit->at.position)
-                                                   : kNone);
+      out.rays.push_back(!hit                 ? kToSky
+                         : hit->side == kNone ? kNone
+                                              : elementOf(hit->surface, hit->side, hit->at.position));
     }
   }
   lookAtLights(position, normal, mixBits(stream ^ 0x5bd1e995u), out);

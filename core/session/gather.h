@@ -9,6 +9,9 @@
 
 namespace unshot {
 
+/// In place of an element: a ray that leaves the scene, into the sky.
+inline constexpr std::uint32_t kToSky = kNone - 1;
+
 /// One unbiased look from a point. H = sum of weight * (what the patch has shot of its emission) over
 /// `lights`
 /// + mean of what the elements in `rays` send besides.
@@ -18,7 +21,7 @@ struct Gather {
     float weight;
   };
   std::vector<Light> lights;
-  std::vector<std::uint32_t> rays;  ///< elements met; kNone where a ray meets nothing or an unlit side
+  std::vector<std::uint32_t> rays;  ///< elements met; kToSky; kNone where a ray meets an unlit side
 };
 
 /// Looks around in a scene. Emitters are seen by their exact polygon factor times the share of it that shadow

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "formfactor/methods.h"
 #include "mesh/build.h"
+#include "scene/sky.h"
 #include "session/light_refinement.h"
 
 namespace unshot {
@@ -68,10 +69,17 @@ bool atVertices(const std::string& method) {
 
 bool finenessGiven(const SolveOptions& options) { return options.elements || options.element_size; }
 
+MeshOptions meshOptions(const Scene& scene, const SolveOptions& options) {
+  return {.elements = options.elements,
+          .element_size = options.element_size,
+          .emit_front_only = options.emit_front_only,
+          .paired_cells = false,
+          .sky = skyOver(scene, options.sky) != glm::dvec3(0.0)};
+}
+
 std::shared_ptr<const Mesh> uniformMesh(const Scene& scene, const SolveOptions& options,
                                         const CancelToken& cancel) {
-  return std::make_shared<const Mesh>(
-      buildMesh(scene, {options.elements, options.element_size, options.emit_front_only, false}, cancel));
+  return std::make_shared<const Mesh>(buildMesh(scene, meshOptions(scene, options), cancel));
 }
 
 // The mesh to be refined, of as many elements as the error asks for.
@@ -80,7 +88,10 @@ std::shared_ptr<const Mesh> baseMesh(const Scene& scene, const SolveOptions& opt
   const double wanted = kBaseElements * std::pow(0.01 / options.error, 1 / kOrder);
   const auto elements = static_cast<std::uint64_t>(
       std::min(std::clamp(wanted, kFewestBase, kMostBase), static_cast<double>(options.max_elements)));
-  Mesh mesh = buildMesh(scene, {elements, {}, options.emit_front_only, true}, cancel);
+  MeshOptions mesh_options = meshOptions(scene, options);
+  mesh_options.elements = elements;
+  mesh_options.paired_cells = true;
+  Mesh mesh = buildMesh(scene, mesh_options, cancel);
   std::erase_if(mesh.diagnostics, [](const Diagnostic& d) { return d.code == "element-count"; });
   return std::make_shared<const Mesh>(std::move(mesh));
 }
@@ -113,6 +124,7 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
   Preparation out;
   const double mesh_began = wallSeconds();
   out.form_factors = options.form_factors;
+  out.sky = skyOver(scene, options.sky);
   out.mesh = options.mesh;
   const bool automatic = out.form_factors == "auto", may_follow = !options.mesh && !finenessGiven(options);
   const bool soonest = options.soonest && scene.triangle_count <= kMostTriangles;
@@ -143,6 +155,13 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
   out.plan.insert(out.plan.end(), decisions.begin(), decisions.end());
   out.diagnostics = scene.diagnostics;
   out.diagnostics.insert(out.diagnostics.end(), out.mesh->diagnostics.begin(), out.mesh->diagnostics.end());
+  if (!options.sky && out.sky != glm::dvec3(0.0)) {
+    out.diagnostics.push_back({Severity::kNote,
+                               "sky",
+                               "as no face emits light, a uniform sky of 1 W/m^2 lights the scene",
+                               {},
+                               "--sky r,g,b for another, --sky 0,0,0 for none"});
+  }
   const FormFactorMethodRow& row = findChoice(formFactorMethods(), out.form_factors, "form-factor method");
   const std::string unsuited = row.unsuited(*out.mesh);
   if (!unsuited.empty()) {

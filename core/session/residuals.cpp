@@ -37,12 +37,16 @@ glm::dvec3 barycentric(double u, double v) {
   return {1 - r, r * (1 - v), r * v};
 }
 
-// H of a gather: what lights have shot of their emission, and what elements send besides.
+// H of a gather: what lights have shot of their emission, and what elements and the sky send besides.
 glm::dvec3 irradianceOf(const Gather& gather, const RadiosityState& state,
-                        const std::vector<glm::dvec3>& element_light) {
+                        const std::vector<glm::dvec3>& element_light, const glm::dvec3& sky) {
   glm::dvec3 sum(0.0);
   for (const std::uint32_t e : gather.rays) {
-    if (e != kNone) sum += element_light[e];
+    if (e == kToSky) {
+      sum += sky;
+    } else if (e != kNone) {
+      sum += element_light[e];
+    }
   }
   sum /= static_cast<double>(gather.rays.size());
   for (const Gather::Light& light : gather.lights)
@@ -200,6 +204,11 @@ void Residuals::addReceiver(std::uint64_t number) {
   elements_.push_back(std::move(place));
 }
 
+// What the sky, the source behind the patches, has shot.
+glm::dvec3 Residuals::skyOf(const RadiosityState& state) const {
+  return state.patchCount() > mesh_.patch_count ? state.shot()[mesh_.patch_count] : glm::dvec3(0.0);
+}
+
 // Light that elements send, besides emission: rho H as it is known on them, without what is unshot of it.
 std::vector<Residuals::Residual> Residuals::pointResiduals(const RadiosityState& state,
                                                            const std::vector<glm::dvec3>& shown_field) const {
@@ -210,6 +219,7 @@ std::vector<Residuals::Residual> Residuals::pointResiduals(const RadiosityState&
     light[e] =
         state.reflectance()[q] * glm::dvec3(h.elements[e]) - (state.unshot()[q] - state.emissionLeft(q));
   }
+  const glm::dvec3 sky = skyOf(state);
   std::vector<Residual> out;
   for (const Place& place : points_) {
     glm::dvec3 shown(0.0);
@@ -217,8 +227,8 @@ std::vector<Residuals::Residual> Residuals::pointResiduals(const RadiosityState&
       shown += place.weights[k] * glm::dvec3(h.vertices[mesh_.triangle_vertices[3 * place.triangle + k]]);
     const glm::dvec3& rho = state.reflectance()[place.patch];
     out.push_back({place.patch,
-                   {rho * (irradianceOf(place.looks[0], state, light) - shown),
-                    rho * (irradianceOf(place.looks[1], state, light) - shown)},
+                   {rho * (irradianceOf(place.looks[0], state, light, sky) - shown),
+                    rho * (irradianceOf(place.looks[1], state, light, sky) - shown)},
                    rho * shown});
   }
   return out;
@@ -231,13 +241,14 @@ std::vector<Residuals::Residual> Residuals::receiverResiduals(const RadiositySta
     const std::uint32_t q = mesh_.element_patch[e];
     light[e] = state.shot()[q] - (state.emission()[q] - state.emissionLeft(q));
   }
+  const glm::dvec3 sky = skyOf(state);
   std::vector<Residual> out;
   for (const Place& place : elements_) {
     const glm::dvec3 h = receivers_.shown(place.receiver, state.irradiance());
     const glm::dvec3& rho = state.reflectance()[place.patch];
     out.push_back({place.patch,
-                   {rho * (irradianceOf(place.looks[0], state, light) - h),
-                    rho * (irradianceOf(place.looks[1], state, light) - h)},
+                   {rho * (irradianceOf(place.looks[0], state, light, sky) - h),
+                    rho * (irradianceOf(place.looks[1], state, light, sky) - h)},
                    rho * h});
   }
   return out;

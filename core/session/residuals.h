@@ -69,6 +69,7 @@ class Residuals {
   std::vector<Residual> pointResiduals(const RadiosityState& state,
                                        const std::vector<glm::dvec3>& shown) const;
   std::vector<Residual> receiverResiduals(const RadiosityState& state) const;
+  glm::dvec3 skyOf(const RadiosityState& state) const;
   bool counts(std::uint32_t patch) const;
   double areaOf(std::uint32_t receiver) const;
 

@@ -56,6 +56,7 @@ struct BounceWait {
 /// irradiance - direct.
 struct Snapshot {
   std::shared_ptr<const Mesh> mesh;
+  glm::dvec3 sky{0.0};                        ///< its radiosity [W/m^2]; 0 where none is seen
   std::vector<glm::vec3> irradiance;          ///< H [W/m^2], one per vertex
   std::vector<glm::vec3> ambient;             ///< estimate of what unshot light will add to H; one per vertex
   std::vector<glm::vec3> unshot;              ///< U [W/m^2] of the vertex's patch, one per vertex

@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "formfactor/methods.h"
+#include "formfactor/sky.h"
 #include "gl/context.h"
 #include "session/fields.h"
 #include "session/plan.h"
@@ -40,20 +41,25 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl, const CancelT
   diagnostics = std::move(prepared.diagnostics);
   seconds.mesh = prepared.mesh_seconds;
   seconds.plan = prepared.plan_seconds;
+  sky = prepared.sky;
 
-  const double cpu_before_setup = cpuSeconds();
   cancel.check();
   makeTransport(gl, cancel);
   cancel.check();
-  cpu_setup = cpuSeconds() - cpu_before_setup;
-  state = std::make_unique<RadiosityState>(*transport, perPatch(*mesh, &Side::emission),
-                                           perPatch(*mesh, &Side::reflectance));
+  std::vector<glm::dvec3> emission = perPatch(*mesh, &Side::emission),
+                          reflectance = perPatch(*mesh, &Side::reflectance);
+  if (transport->patchCount() > mesh->patch_count) {
+    emission.push_back(sky);
+    reflectance.emplace_back(0.0);
+  }
+  state = std::make_unique<RadiosityState>(*transport, std::move(emission), std::move(reflectance));
   cancel.check();
   ambient = std::make_unique<AmbientTerm>(mesh->patch_count, mesh->patch_air);
   budget = std::make_unique<ErrorBudget>(*mesh, *transport, *state, options.kept_bytes / options.sharers / 4,
                                          options.seed);
   transport->watchColumns([this](std::uint32_t q, const Column& column) {
-    ambient->sees(q, column, transport->receivers());
+    // What the sky shines on need not see each other.
+    if (q < mesh->patch_count) ambient->sees(q, column, transport->receivers());
     budget->columnComputed(q, column);
   });
   if (transport->receivers().layered() && !options.bounces)
@@ -83,6 +89,7 @@ void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl, const C
     context.makeCurrent();
     return context;
   };
+  const double cpu_before_setup = cpuSeconds();
   const auto receivers = std::make_shared<const Receivers>(makeReceivers(*mesh, row.receivers, cancel));
   if (row.receivers == ReceiverKind::kVertices) setup.receivers = receivers;
   std::unique_ptr<FormFactorMethod> method = row.make(setup);
@@ -90,7 +97,19 @@ void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl, const C
     diagnostics.push_back({Severity::kNote, "form-factor-note", method->note(), {}, {}});
   if (options.wrap_form_factors) method = options.wrap_form_factors(std::move(method));
   cancel.check();
-  transport = std::make_unique<Transport>(std::move(method), *receivers, mesh->patch_area,
+  cpu_setup = cpuSeconds() - cpu_before_setup;
+  std::vector<double> areas = mesh->patch_area;
+  if (sky != glm::dvec3(0.0)) {
+    SkySource source = lookAtSky(*mesh, *receivers, options.seed, cancel);
+    if (source.area > 0) {
+      areas.push_back(source.area);
+      method = withSky(std::move(method), mesh->patch_count, std::move(source.column));
+    } else {
+      sky = glm::dvec3(0.0);
+      plan.push_back({"the sky", "no surface sees any of it", "one source"});
+    }
+  }
+  transport = std::make_unique<Transport>(std::move(method), *receivers, std::move(areas),
                                           options.kept_bytes / options.sharers);
   transport->allowDrafts(options.draft_first && !options.bounces);
 }
@@ -321,6 +340,7 @@ void Solve::interrupt() {
 Snapshot Solve::snapshot() const {
   const Impl& s = *impl_;
   Snapshot out = makeFields(s.mesh, s.transport->receivers(), s.shownIrradiance(), *s.state, *s.ambient);
+  out.sky = s.sky;
   out.measures = s.measures;
   impl_->shared.addTo(out, *s.transport, *s.state, s.budget->bounds());
   out.bounce_light = s.bounces_of_light->light();
@@ -352,6 +372,7 @@ std::vector<glm::dvec3> Solve::patchRadiosity() const {
   return out;
 }
 
+const glm::dvec3& Solve::sky() const { return impl_->sky; }
 const SolveOptions& Solve::options() const { return impl_->options; }
 const Scene& Solve::scene() const { return impl_->scene; }
 const Mesh& Solve::mesh() const { return *impl_->mesh; }

@@ -36,7 +36,8 @@ struct SolveOptions {
   /// fine as `error` asks for and of about so many elements at most.
   std::uint64_t max_elements = 1'000'000;
   bool emit_front_only = false;
-  double error = 0.01;  ///< stop when the bound of the solver's error is below Solve::solverTarget
+  std::optional<glm::dvec3> sky;  ///< radiosity of the sky [W/m^2]; without, see skyOver (scene/sky.h)
+  double error = 0.01;            ///< stop when the bound of the solver's error is below Solve::solverTarget
   std::optional<double> max_seconds;
   std::optional<std::uint64_t> max_shots;
   /// Only the light of so many bounces, E + M E + ... + M^n E, whatever its error: the mode is `jacobi`,
@@ -131,8 +132,10 @@ class Solve {
   double progress() const;
 
   // For reports.
-  std::vector<glm::dvec3> patchRadiosity() const;  ///< B = S + U, one per patch [W/m^2]
-  const SolveOptions& options() const;             ///< as asked for; `mode` and `error` as set last
+  const glm::dvec3& sky() const;  ///< radiosity of the sky [W/m^2]; 0 where none is seen
+  /// B = S + U [W/m^2], one per patch and, where there is a sky, its own behind them.
+  std::vector<glm::dvec3> patchRadiosity() const;
+  const SolveOptions& options() const;  ///< as asked for; `mode` and `error` as set last
   const Scene& scene() const;
   const Mesh& mesh() const;
   const std::string& modeKey() const;         ///< what `auto` became

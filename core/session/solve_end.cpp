@@ -55,7 +55,7 @@ bool Solve::Impl::lacksBound() const {
 
 // Computes a column that no shot has asked for yet; false where none is left that light could take.
 bool Solve::Impl::completeColumns() {
-  for (; next_column < mesh->patch_count; ++next_column) {
+  for (; next_column < transport->patchCount(); ++next_column) {
     if (transport->quality(next_column) || state->reflectance()[next_column] == glm::dvec3(0.0)) continue;
     transport->column(next_column++);
     return true;

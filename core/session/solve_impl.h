@@ -24,6 +24,7 @@ struct Solve::Impl {
   SolveOptions options;
   Scene scene;
   std::shared_ptr<const Mesh> mesh;
+  glm::dvec3 sky{0.0};  // its radiosity [W/m^2]: the source behind all patches; 0: there is none
   std::string mode_key, form_factors_key;
   std::vector<PlanDecision> plan;
   Diagnostics diagnostics;

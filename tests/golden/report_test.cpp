@@ -73,7 +73,7 @@ TEST(Report, OneBadSceneDoesNotCostTheOthersAndNamesMayCollide) {
   std::filesystem::copy(room, folder / "o/room.obj");
   std::filesystem::copy(folder / "room.mtl", folder / "o/room.mtl");
   const ProgramResult result = report(
-      folder, {"dark.obj", "gone.obj", "room.obj", "o", "--out", "r", "--modes", "jacobi", "--no-pictures"});
+      folder, {"dark.obj", "gone.obj", "room.obj", "o", "--out", "r", "--modes", "jacobi", "--no-pictures", "--sky", "0,0,0"});
   EXPECT_EQ(result.code, 3);
   EXPECT_THAT(result.err, AllOf(HasSubstr("dark.obj: the scene has no light"), HasSubstr("gone.obj")));
   EXPECT_TRUE(std::filesystem::exists(folder / "r/room/report.json"));
@@ -86,7 +86,7 @@ TEST(Report, AReferenceWithoutLightEndsWith3) {
   const TempFolder folder;
   writeRoom(folder);
   folder.write("dark.obj", testing_support::roomObj("white", "white"));
-  const ProgramResult result = report(folder, {"dark.obj", "--out", "r", "--reference"});
+  const ProgramResult result = report(folder, {"dark.obj", "--out", "r", "--reference", "--sky", "0,0,0"});
   EXPECT_EQ(result.code, 3);
   EXPECT_THAT(result.err, AllOf(HasSubstr("unshot: "), HasSubstr("\n  try: ")));
 }

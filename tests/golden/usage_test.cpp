@@ -39,7 +39,7 @@ TEST(Help, NamesEveryOptionOfSolve) {
         "--error",    "--max-seconds",  "--max-shots",  "--seed",     "--png",          "--hdr",
         "--size",     "--eye",          "--at",         "--up",       "--fov",          "--display",
         "--exposure", "--ambient",      "--ply",        "--probe",    "--probe-out",    "--report",
-        "--hemicube", "--keep",         "--shader-dir", "--bounces"}) {
+        "--hemicube", "--keep",         "--shader-dir", "--bounces",  "--sky"}) {
     EXPECT_THAT(result.out, HasSubstr(std::string("  ") + option + " "));
   }
 }
@@ -141,6 +141,8 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"solve", "room.obj", "--hemicube", "33"}, "--hemicube: 33 is not even"},
         UsageCase{{"solve", "room.obj", "--hemicube", "8"}, "--hemicube: 8 is not from 16 to 4,096"},
         UsageCase{{"solve", "room.obj", "--emit", "back"}, "--emit: 'back' is neither both nor front"},
+        UsageCase{{"solve", "room.obj", "--sky", "1,2"}, "--sky: '1,2' is not r,g,b"},
+        UsageCase{{"solve", "room.obj", "--sky", "1,-1,1"}, "--sky: '1,-1,1' is not r,g,b"},
         UsageCase{{"solve", "room.obj", "--size", "800"}, "--size: '800' is not WIDTHxHEIGHT"},
         UsageCase{{"solve", "room.obj", "--size", "0x600"}, "--size: '0x600' is not from 1x1"},
         UsageCase{{"solve", "room.obj", "--eye", "1,2"}, "--eye: '1,2' is not x,y,z"},

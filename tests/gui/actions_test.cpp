@@ -68,6 +68,7 @@ const std::map<std::string_view, std::string>& validArguments() {
       {"race", "southwell"},
       {"form-factors", "hemicube"},
       {"elements", "300"},
+      {"sky", "0.5,0.5,1"},
       {"hemicube", "32"},
       {"error", "0.02"},
       {"display", "flat"},

@@ -197,7 +197,7 @@ TEST_F(ObjMaterials, DoesNotNoteValuesThatAskForNothing) {
 TEST_F(ObjMaterials, WarnsOfASceneWithoutLight) {
   write("a.mtl", "newmtl a\nKd 0.5 0.5 0.5\nnewmtl lamp\nKd 0 0 0\nKe 1 1 1\n");
   const Scene dark = read(sceneWith("a.mtl", "a") + "usemtl lamp\n");
-  expectDiagnostic(dark, "no-light", "dark", "scene.obj");
+  expectDiagnostic(dark, "no-light", "no face emits light", "scene.obj");
   EXPECT_EQ(findDiagnostic(dark, "no-light")->severity, Severity::kWarning);
   expectNoDiagnostic(read(sceneWith("a.mtl", "lamp")), "no-light");
 }

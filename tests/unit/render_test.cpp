@@ -297,6 +297,22 @@ TEST_P(Rendering, AMeshWithoutTrianglesIsBackground) {
   EXPECT_EQ(pixel(drawn.srgb, 5, 5), pixel(drawn.srgb, 100, 80));
 }
 
+// Where light is shown, and nothing stands before it.
+TEST_P(Rendering, TheSkyIsBehindEverything) {
+  Snapshot room = syntheticRoom();
+  room.sky = {0.25, 0.5, 4};
+  for (const char* display : {"radiosity", "emission", "reflectance"}) {
+    PictureOptions options = show(display);
+    options.eye = {0, 1, 20};
+    options.at = {0, 1, 40};
+    const Picture drawn = picture(room, options);
+    const bool light = display != std::string("reflectance");
+    EXPECT_EQ(pixel(drawn.linear, 60, 45), light ? room.sky : glm::dvec3(0.0)) << display;
+    const glm::dvec3 shown = pixel(drawn.srgb, 60, 45);
+    EXPECT_EQ(shown.x < shown.z, light) << display;
+  }
+}
+
 TEST_P(Rendering, ImpossibleOptionsAreUsageErrors) {
   const Snapshot room = syntheticRoom();
   PictureOptions options = show("radiosity");
