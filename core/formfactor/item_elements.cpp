@@ -5,6 +5,12 @@
 #include "mesh/grid.h"
 
 namespace unshot {
+namespace {
+
+// Steps of an item's place on its surface: what is so near to a contact may lie beyond it.
+constexpr double kDoubt = 8;
+
+}  // namespace
 
 ItemElements::ItemElements(const Mesh& mesh) : mesh_(mesh) {
   for (const Surface& s : mesh_.surfaces) {
@@ -57,7 +63,7 @@ std::uint32_t ItemElements::elementOf(const Item& item) const {
   if (local == kMixed) {
     const Surface& surface = mesh_.surfaces[item.surface()];
     const glm::dvec2 step = surface.extent / 65536.0;
-    local = elementAt(mesh_, surface, glm::dvec2(u + 0.5, v + 0.5) * step, std::max(step.x, step.y));
+    local = elementAt(mesh_, surface, glm::dvec2(u + 0.5, v + 0.5) * step, kDoubt * std::max(step.x, step.y));
     if (local == kNone) return kTied;
   }
   return first + local;

@@ -15,6 +15,13 @@ namespace {
 // from above, where it fills half of the view.
 constexpr double kMargin = 1e-6;
 
+// Steps of a sequence that spreads evenly with radicalInverse: the inverse of the plastic number.
+constexpr double kPlastic = 0.7548776662466927;
+// What of a triangle's area is left out towards one corner and its opposite side.
+constexpr double kOffBorders = 0.02;
+
+double fraction(double x) { return x - std::floor(x); }
+
 // The bits of k in reverse order behind the point (van der Corput).
 double radicalInverse(std::uint32_t k) {
   std::uint32_t reversed = 0;
@@ -42,6 +49,7 @@ void PatchPolygons::collect(const Mesh& mesh, std::uint32_t q) {
   patch.surface = side.surface;
   patch.normal = side.normal;
   const Region region = regionOfPatch(mesh, side.surface, local);
+  patch.centre = surface.point(region.sample);
   const glm::dvec2 size = region.high - region.low;
   const auto add = [&](std::vector<glm::dvec3> corners) {
     if (side.back) std::reverse(corners.begin(), corners.end());
@@ -94,7 +102,7 @@ bool PatchPolygons::isSeen(const Patch& patch, std::uint32_t q, const glm::dvec3
   // The sphere around it first: it needs no pass over the corners.
   const double height = glm::dot(normal, patch.middle - point);
   if (height <= margin_ - patch.radius) return false;
-  return height > margin_ + patch.radius || glm::dot(normal, highest(q, normal) - point) > margin_;
+  return height > margin_ + patch.radius || glm::dot(normal, highest(q, normal).at - point) > margin_;
 }
 
 double PatchPolygons::factor(std::uint32_t q, const glm::dvec3& point, const glm::dvec3& normal,
@@ -115,18 +123,20 @@ double PatchPolygons::quickFactor(std::uint32_t q, const glm::dvec3& point, cons
   return std::max(sum, 0.0);
 }
 
-const glm::dvec3& PatchPolygons::highest(std::uint32_t q, const glm::dvec3& direction) const {
+PatchPolygons::Corner PatchPolygons::highest(std::uint32_t q, const glm::dvec3& direction) const {
   const glm::dvec3* best = nullptr;
+  const FactorPolygon* best_part = nullptr;
   double most = 0;
   for (const FactorPolygon& part : patches_[q].parts) {
     for (const glm::dvec3& corner : part.corners()) {
       const double height = glm::dot(direction, corner);
       if (best && height <= most) continue;
       best = &corner;
+      best_part = &part;
       most = height;
     }
   }
-  return *best;
+  return {*best, best_part->centre()};
 }
 
 void PatchPolygons::spread(std::uint32_t q, std::uint32_t n, std::vector<glm::dvec3>& out) const {
@@ -153,15 +163,18 @@ void PatchPolygons::spread(std::uint32_t q, std::uint32_t n, std::vector<glm::dv
       triangles.push_back({ring[0], ring[k - 1], ring[k], area});
     }
   }
+  if (n == 1) {
+    out.push_back(patch.centre);
+    return;
+  }
   for (std::uint32_t k = 0; k < n; ++k) {
     const double at = (k + 0.5) / n * area;
     auto t = std::lower_bound(triangles.begin(), triangles.end(), at,
                               [](const Triangle& triangle, double a) { return triangle.until < a; });
     if (t == triangles.end()) --t;
-    const double before = t == triangles.begin() ? 0 : (t - 1)->until;
-    const double inside = t->until > before ? (at - before) / (t->until - before) : 0.5;
-    // Uniform on a triangle; for the middle of both numbers near its centroid.
-    const double root = std::sqrt(std::clamp(inside, 0.0, 1.0)), v = radicalInverse(k) + 0.5 / n;
+    // Uniform on a triangle, and off its borders: beyond those may lie another room.
+    const double u = fraction(0.5 + k * kPlastic), v = radicalInverse(k) + 0.5 / n;
+    const double root = std::sqrt(std::clamp(u, kOffBorders, 1 - kOffBorders));
     out.push_back((1 - root) * t->a + root * (1 - v) * t->b + root * v * t->c);
   }
 }

@@ -13,7 +13,7 @@ namespace unshot {
 
 class PatchPolygons {
  public:
-  /// Keeps a reference to the mesh, which must outlive it.
+  /// Keeps nothing of the mesh.
   explicit PatchPolygons(const Mesh& mesh, const CancelToken& cancel = {});
 
   /// The exact Lambert factor of patch q at a point with this normal (unit length), without occlusion; 0
@@ -26,10 +26,15 @@ class PatchPolygons {
                      std::vector<glm::dvec3>& scratch) const;
   std::uint32_t surface(std::uint32_t q) const { return patches_[q].surface; }
   /// `n` (a power of two) points of the patch that stand for equal parts of its area, spread so that they
-  /// fall into n different places along each side of a rectangle; for one, its middle.
+  /// fall into n different places along each side of a rectangle, none of them on its border; for one, its
+  /// centre.
   void spread(std::uint32_t q, std::uint32_t n, std::vector<glm::dvec3>& out) const;
+  struct Corner {
+    glm::dvec3 at;
+    glm::dvec3 inside;  ///< a point within the patch, of which all of the way there from the corner is too
+  };
   /// The corner farthest along `direction`.
-  const glm::dvec3& highest(std::uint32_t q, const glm::dvec3& direction) const;
+  Corner highest(std::uint32_t q, const glm::dvec3& direction) const;
   /// Middle and radius [m] of a sphere around the patch.
   const glm::dvec3& middle(std::uint32_t q) const { return patches_[q].middle; }
   double radius(std::uint32_t q) const { return patches_[q].radius; }
@@ -38,6 +43,7 @@ class PatchPolygons {
   struct Patch {
     std::vector<FactorPolygon> parts;
     glm::dvec3 middle{0.0}, normal{0.0};
+    glm::dvec3 centre{0.0};  // of its area, or a point in it
     double radius = 0;
     std::uint32_t surface = 0;
     bool rectangle = false;

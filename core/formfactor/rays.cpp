@@ -31,6 +31,8 @@ constexpr double kWide = 0.4, kVeryWide = 1.2;
 constexpr std::size_t kLevels = 4;
 // How far from the corner towards the middle a ray goes that looks for a corner.
 constexpr double kInset = 1e-3;
+// Times SceneRays::lift: heights that rays tell from none.
+constexpr double kTold = 10;
 // Rays that find what escapes of a patch's light: a grid of strata, this many along each side.
 constexpr int kEscapeStrata = 12;
 
@@ -83,9 +85,14 @@ class ShadowRays final : public Visibility {
     }
     if (all > 0) return visible / all;
     if (level + 1 < kLevels) return share(from, eye, q, level + 1);
-    // What is above the horizon lies beyond all samples.
-    const glm::dvec3 corner = polygons_->highest(q, from.normal);
-    const glm::dvec3 near_corner = corner + kInset * (polygons_->middle(q) - corner);
+    // What is above the horizon lies beyond all samples, near one corner: so little of it that rays can not
+    // tell it from what it touches does not count.
+    const PatchPolygons::Corner corner = polygons_->highest(q, from.normal);
+    const double height = glm::dot(corner.at - from.position, from.normal),
+                 inside = glm::dot(corner.inside - from.position, from.normal);
+    if (height < kTold * rays_.rays().lift()) return 0;
+    const double inset = inside < 0 ? std::min(kInset, height / (2 * (height - inside))) : kInset;
+    const glm::dvec3 near_corner = corner.at + inset * (corner.inside - corner.at);
     return rays_.rays().occluded(eye, rays_.rays().lifted(near_corner, normal)) ? 0 : 1;
   }
 

@@ -228,17 +228,15 @@ Mesh buildMesh(const Scene& scene, const MeshOptions& options, const CancelToken
   makeSides(scene, options, mesh, cancel);
   const double tolerance = mesh.weld_distance = weldDistance(scene);
   cancel.check();
-  const Contacts contacts = findContacts(mesh, topology.edges, 2 * tolerance, cancel);
+  const double size = options.element_size.value_or(
+      std::sqrt(mesh.lit_area / static_cast<double>(options.elements.value_or(kDefaultElements))));
+  const Contacts contacts = findContacts(mesh, topology.edges, 2 * tolerance, size, cancel);
   if (options.elements) {
     gridForCount(mesh, static_cast<double>(*options.elements), options.paired_cells, contacts, tolerance,
                  cancel);
-  } else {
-    const double size =
-        options.element_size.value_or(std::sqrt(mesh.lit_area / static_cast<double>(kDefaultElements)));
-    if (!mesh.sides.empty()) {
-      gridAll(mesh, std::vector<double>(mesh.surfaces.size(), size), options.paired_cells, contacts,
-              tolerance, cancel);
-    }
+  } else if (!mesh.sides.empty()) {
+    gridAll(mesh, std::vector<double>(mesh.surfaces.size(), size), options.paired_cells, contacts, tolerance,
+            cancel);
   }
   numberElements(mesh, cancel);
   makeDisplay(mesh, cancel);

@@ -1,8 +1,10 @@
 #include "mesh/contacts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "base/box_tree.h"
 #include "mesh/clip.h"
@@ -69,17 +71,107 @@ void halve(const ConvexPolygon& in, const glm::dvec2& a, const glm::dvec2& d, do
   }
 }
 
-bool onSegment(const glm::dvec2& p, const ContactSegment& s, double tolerance) {
-  const glm::dvec2 d = s.b - s.a;
-  const double length = glm::length(d), along = glm::dot(p - s.a, d) / length;
-  return std::abs(cross(d, p - s.a)) / length <= tolerance && along >= -tolerance &&
-         along <= length + tolerance;
+// Whether segments that lie on the edge from a to b cover all of it, one after the other.
+bool isCovered(const glm::dvec2& a, const glm::dvec2& b, const std::vector<const ContactSegment*>& segments,
+               double tolerance) {
+  const double length = glm::distance(a, b);
+  if (length == 0) return false;
+  const glm::dvec2 d = (b - a) / length;
+  std::vector<std::pair<double, double>> parts;
+  for (const ContactSegment* s : segments) {
+    const glm::dvec2 along = (s->b - s->a) / glm::distance(s->a, s->b);
+    if (std::abs(cross(along, a - s->a)) > tolerance || std::abs(cross(along, b - s->a)) > tolerance)
+      continue;
+    const double x = glm::dot(s->a - a, d), y = glm::dot(s->b - a, d);
+    parts.emplace_back(std::min(x, y), std::max(x, y));
+  }
+  std::sort(parts.begin(), parts.end());
+  double until = 0;
+  for (const auto& [low, high] : parts) {
+    if (low > until + tolerance) return false;
+    until = std::max(until, high);
+  }
+  return !parts.empty() && until >= length - tolerance;
+}
+
+// Of an element's edge: the least extent of a surface that edges above it cut, and how far above it they are.
+// Farther off, what one element sees past an edge differs little from what the next one sees.
+constexpr double kLarge = 2, kJustAbove = 0.25;
+
+using Contacts = std::vector<std::vector<ContactSegment>>;
+
+// The part of the segment in the triangle (counter-clockwise); nothing where it is no longer than twice
+// `distance`.
+std::optional<ContactSegment> partInside(const ContactSegment& s, const ChartTriangle& t, double distance) {
+  const double length = glm::distance(s.a, s.b);
+  if (length <= 2 * distance) return std::nullopt;
+  const glm::dvec2 d = (s.b - s.a) / length;
+  const ConvexPolygon corners{{t.uv[0], false}, {t.uv[1], false}, {t.uv[2], false}};
+  auto [first, last] = insideRange(corners, s.a, d);
+  first = std::max(first, 0.0);
+  last = std::min(last, length);
+  if (last - first <= 2 * distance) return std::nullopt;
+  return ContactSegment{s.a + first * d, s.a + last * d};
+}
+
+// Where a triangle passes through the surface's plane; nothing where it only reaches it.
+std::optional<ContactSegment> crossing(const Surface& surface, const std::array<glm::dvec3, 3>& corners,
+                                       double distance) {
+  double height[3], low = 0, high = 0;
+  for (int k = 0; k < 3; ++k) {
+    height[k] = glm::dot(corners[k] - surface.origin, surface.normal);
+    low = std::min(low, height[k]);
+    high = std::max(high, height[k]);
+    if (std::abs(height[k]) <= distance) height[k] = 0;
+  }
+  if (low >= -distance || high <= distance) return std::nullopt;
+  glm::dvec2 points[2];
+  int count = 0;
+  for (int k = 0; k < 3 && count < 2; ++k) {
+    const int next = (k + 1) % 3;
+    if (height[k] == 0) {
+      points[count++] = surface.chart(corners[k]);
+    } else if (height[k] * height[next] < 0) {
+      const double t = height[k] / (height[k] - height[next]);
+      points[count++] = surface.chart(corners[k] + t * (corners[next] - corners[k]));
+    }
+  }
+  return count == 2 ? std::optional(ContactSegment{points[0], points[1]}) : std::nullopt;
+}
+
+// Where triangles of other surfaces pass through each surface.
+void addCrossings(const Mesh& mesh, double distance, const CancelToken& cancel, Contacts& out) {
+  const auto cornersOf = [&](std::uint32_t t) {
+    const std::uint32_t* v = mesh.triangles[t].position;
+    return std::array<glm::dvec3, 3>{mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
+  };
+  std::vector<Box> boxes;
+  std::vector<std::uint32_t> owner(mesh.triangles.size());
+  for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
+    const Range range = mesh.surfaces[s].triangles;
+    std::fill_n(owner.begin() + range.first, range.count, s);
+  }
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [a, b, c] = cornersOf(t);
+    boxes.push_back({glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c)});
+  }
+  const BoxTree tree(boxes, cancel);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    cancel.check();
+    const Surface& surface = mesh.surfaces[owner[t]];
+    tree.overlapping(boxes[t], [&](std::uint32_t other) {
+      if (owner[other] == owner[t]) return;
+      const auto line = crossing(surface, cornersOf(other), distance);
+      const auto inside = line ? partInside(*line, mesh.triangles[t], distance) : std::nullopt;
+      if (inside) out[owner[t]].push_back(*inside);
+    });
+  }
 }
 
 }  // namespace
 
-std::vector<std::vector<ContactSegment>> findContacts(const Mesh& mesh, const std::vector<SurfaceEdge>& edges,
-                                                      double distance, const CancelToken& cancel) {
+Contacts findContacts(const Mesh& mesh, const std::vector<SurfaceEdge>& edges, double distance, double size,
+                      const CancelToken& cancel) {
   // Each edge once, however many polygons share it; `first` is the first of its uses.
   std::vector<std::uint32_t> first;
   std::vector<Box> boxes;
@@ -98,23 +190,26 @@ std::vector<std::vector<ContactSegment>> findContacts(const Mesh& mesh, const st
     return false;
   };
   const BoxTree tree(std::move(boxes), cancel);
-  std::vector<std::vector<ContactSegment>> out(mesh.surfaces.size());
+  Contacts out(mesh.surfaces.size());
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
     cancel.check();
     const Surface& surface = mesh.surfaces[s];
+    // Edges just above it tell its elements apart where there are several beside each other.
+    const bool large = std::min(surface.extent.x, surface.extent.y) > kLarge * size;
+    const double reach = large ? std::max(kJustAbove * size, distance) : distance;
     Box box{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
     for (std::uint32_t t = surface.triangles.first; t < surface.triangles.end(); ++t) {
       for (const std::uint32_t v : mesh.triangles[t].position) {
-        box.low = glm::min(box.low, mesh.positions[v] - distance);
-        box.high = glm::max(box.high, mesh.positions[v] + distance);
+        box.low = glm::min(box.low, mesh.positions[v] - reach);
+        box.high = glm::max(box.high, mesh.positions[v] + reach);
       }
     }
     tree.overlapping(box, [&](std::uint32_t index) {
       const SurfaceEdge& e = edges[first[index]];
       const glm::dvec3 p = mesh.positions[e.a] - surface.origin, q = mesh.positions[e.b] - surface.origin;
-      if (std::abs(glm::dot(p, surface.normal)) > distance ||
-          std::abs(glm::dot(q, surface.normal)) > distance)
-        return;
+      const double height =
+          std::max(std::abs(glm::dot(p, surface.normal)), std::abs(glm::dot(q, surface.normal)));
+      if (height > distance && (height > reach || glm::distance(p, q) < size)) return;
       if (owns(s, first[index])) return;
       const ContactSegment segment{{glm::dot(p, surface.axis_u), glm::dot(p, surface.axis_v)},
                                    {glm::dot(q, surface.axis_u), glm::dot(q, surface.axis_v)}};
@@ -125,6 +220,7 @@ std::vector<std::vector<ContactSegment>> findContacts(const Mesh& mesh, const st
       if (!outside(0) && !outside(1)) out[s].push_back(segment);
     });
   }
+  addCrossings(mesh, distance, cancel, out);
   return out;
 }
 
@@ -161,9 +257,7 @@ void cutByContacts(std::vector<ConvexPolygon>& polygons, const std::vector<Conta
   for (ConvexPolygon& p : polygons) {
     for (std::size_t k = 0; k < p.size(); ++k) {
       const glm::dvec2 &a = p[k].uv, &b = p[(k + 1) % p.size()].uv;
-      p[k].outline = p[k].outline || std::any_of(near.begin(), near.end(), [&](const ContactSegment* s) {
-                       return onSegment(a, *s, 2 * tolerance) && onSegment(b, *s, 2 * tolerance);
-                     });
+      p[k].outline = p[k].outline || isCovered(a, b, near, 2 * tolerance);
     }
   }
 }

@@ -72,8 +72,8 @@ TEST(Report, OneBadSceneDoesNotCostTheOthersAndNamesMayCollide) {
   std::filesystem::create_directory(folder / "o");
   std::filesystem::copy(room, folder / "o/room.obj");
   std::filesystem::copy(folder / "room.mtl", folder / "o/room.mtl");
-  const ProgramResult result = report(
-      folder, {"dark.obj", "gone.obj", "room.obj", "o", "--out", "r", "--modes", "jacobi", "--no-pictures", "--sky", "0,0,0"});
+  const ProgramResult result = report(folder, {"dark.obj", "gone.obj", "room.obj", "o", "--out", "r",
+                                               "--modes", "jacobi", "--no-pictures", "--sky", "0,0,0"});
   EXPECT_EQ(result.code, 3);
   EXPECT_THAT(result.err, AllOf(HasSubstr("dark.obj: the scene has no light"), HasSubstr("gone.obj")));
   EXPECT_TRUE(std::filesystem::exists(folder / "r/room/report.json"));

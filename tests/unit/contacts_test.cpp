@@ -166,14 +166,57 @@ TEST(Contacts, LeaveNoCracksWhereWallsEndInsideCells) {
   }
 }
 
-TEST(Contacts, AreNotFoundWhereEdgesOnlyPassNearby) {
+// Elements of a floor of 3 by 3 on the two sides of x = 1.05, all along z up to `until`, are different ones.
+bool isCutAlong(const Mesh& mesh, double until) {
+  const Surface& s = mesh.surfaces[0];
+  const auto at = [&](double x, double z) {
+    return elementAt(mesh, s, s.chart(onFloor(x, z) - mesh.frame_origin));
+  };
+  for (double z = 0.05; z < until; z += 0.1) {
+    if (at(1.04, z) == at(1.06, z)) return false;
+  }
+  return true;
+}
+
+Mesh floorWithWall(const glm::dvec3& corner, const glm::dvec3& along, const glm::dvec3& up) {
   SceneBuilder b;
   const auto m = b.material("m", glm::dvec3(0.5)), wall = b.material("w", glm::dvec3(0.5));
   b.quad(m, onFloor(0, 0), onFloor(0, 3), onFloor(3, 0));
-  b.quad(wall, {1.05, 0.001, 0}, onFloor(0, 2), {0, 1, 0});  // floats a millimetre above the floor
-  const Mesh mesh = buildMesh(b.finish(), {200, {}, false});
-  for (std::uint32_t c = 0; c < mesh.surfaces[0].nu * mesh.surfaces[0].nv; ++c) {
-    EXPECT_NE(mesh.cells[mesh.surfaces[0].first_cell + c].element, kMixed);
+  b.quad(wall, corner, along, up);
+  Mesh mesh = buildMesh(b.finish(), {200, {}, false});
+  expectSoundMesh(mesh);
+  return mesh;
+}
+
+TEST(Contacts, AreFoundWhereASurfacePassesThroughAnother) {
+  EXPECT_TRUE(isCutAlong(floorWithWall({1.05, -0.7, -0.5}, {0, 0, 4}, {0, 1.5, 0}), 3));
+  EXPECT_TRUE(isCutAlong(floorWithWall({1.05, -0.7, 0}, {0, 0, 2}, {0, 1.5, 0}), 1.7));
+}
+
+// An element's edge is about a third here.
+TEST(Contacts, AreFoundWhereLongEdgesComeNear) {
+  EXPECT_TRUE(isCutAlong(floorWithWall({1.05, 0.001, 0}, {0, 0, 2}, {0, 1, 0}), 1.7));
+  EXPECT_TRUE(isCutAlong(floorWithWall({1.05, 0.06, 0}, {0, 0, 2}, {1, 0, 0}), 1.7));
+  const Mesh above = floorWithWall({1.05, 0.15, 0}, {0, 0, 2}, {0, 1, 0}),
+             small = floorWithWall({1.05, 0.001, 0}, {0, 0, 0.2}, {0, 0.2, 0});
+  for (const Mesh* mesh : {&above, &small}) {
+    for (std::uint32_t c = 0; c < mesh->surfaces[0].nu * mesh->surfaces[0].nv; ++c)
+      EXPECT_NE(mesh->cells[mesh->surfaces[0].first_cell + c].element, kMixed);
+  }
+}
+
+// A wall of two triangles crosses a floor in two segments, which may meet within a cell.
+TEST(Contacts, SegmentsThatMeetCutTogether) {
+  std::vector<ConvexPolygon> polygons{{{{0, 0}, false}, {{1, 0}, false}, {{1, 1}, false}, {{0, 1}, false}}};
+  cutByContacts(polygons, {{{0.3, -1}, {0.3, 0.4}}, {{0.3, 2}, {0.3, 0.4}}}, 1e-9);
+  ASSERT_EQ(polygons.size(), 2u);
+  for (const ConvexPolygon& p : polygons) {
+    EXPECT_EQ(std::count_if(p.begin(), p.end(), [](const PieceCorner& c) { return c.outline; }), 1);
+  }
+  polygons = {{{{0, 0}, false}, {{1, 0}, false}, {{1, 1}, false}, {{0, 1}, false}}};
+  cutByContacts(polygons, {{{0.3, -1}, {0.3, 0.4}}, {{0.3, 2}, {0.3, 0.6}}}, 1e-9);
+  for (const ConvexPolygon& p : polygons) {
+    EXPECT_EQ(std::count_if(p.begin(), p.end(), [](const PieceCorner& c) { return c.outline; }), 0);
   }
 }
 
