@@ -1,8 +1,17 @@
 #include "formfactor/pointwise.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace unshot {
+namespace {
+
+// Of the largest of nine factors: how far they may be from where lines lead, that a parabola does for the
+// others. On the Cornell box at --error 0.005, 0 gives 0.685 % nRMSE, 0.05 0.687, 0.1 0.745, 0.2 0.90.
+constexpr double kMostBend = 0.05;
+
+}  // namespace
 
 Pointwise::Pointwise(const FormFactorSetup& setup, std::shared_ptr<const PatchPolygons> polygons,
                      std::unique_ptr<Visibility> visibility)
@@ -11,33 +20,122 @@ Pointwise::Pointwise(const FormFactorSetup& setup, std::shared_ptr<const PatchPo
       visibility_(std::move(visibility)),
       receivers_(setup.receivers ? setup.receivers
                                  : std::make_shared<const Receivers>(
-                                       makeReceivers(*setup.mesh, ReceiverKind::kVertices, setup.cancel))) {}
+                                       makeReceivers(*setup.mesh, ReceiverKind::kVertices, setup.cancel))) {
+  if (visibility_) blocks_ = receiverBlocks(mesh_, *receivers_, setup.cancel);
+}
 
 double Pointwise::factor(std::uint32_t v, std::uint32_t q) {
   double sum = 0;
-  for (const ReceiverView& view : receivers_->viewsOf(v)) sum += view.weight * factor(view, q);
+  for (const ReceiverView& view : receivers_->viewsOf(v)) sum += view.weight * factor(view, q).k;
   return sum;
 }
 
-double Pointwise::factor(const ReceiverView& from, std::uint32_t q) {
-  if (mesh_.sides[from.side].surface == polygons_->surface(q)) return 0;
+Pointwise::Seen Pointwise::factor(const ReceiverView& from, std::uint32_t q) {
+  if (mesh_.sides[from.side].surface == polygons_->surface(q)) return {};
   // Without occlusion the factors are exact; beside what shadow rays leave open the rest does not show.
-  if (!visibility_) return polygons_->factor(q, from.position, from.normal, scratch_);
+  if (!visibility_) return {polygons_->factor(q, from.position, from.normal, scratch_), Sight::kAll};
   const double lambert = mesh_.emits(q) ? polygons_->factor(q, from.position, from.normal, scratch_)
                                         : polygons_->quickFactor(q, from.position, from.normal, scratch_);
-  return lambert == 0 ? 0 : lambert * visibility_->seen(from, q);
+  if (lambert == 0) return {};
+  const double share = visibility_->seen(from, q);
+  return {lambert * share, share == 1 ? Sight::kAll : share == 0 ? Sight::kNothing : Sight::kPart};
+}
+
+double Pointwise::exactly(std::uint32_t v, std::uint32_t q, Column& column) {
+  const std::uint32_t entry = v - column.first;
+  if (sight_[entry] <= Sight::kInterpolated) {
+    const Seen seen = factor(receivers_->viewsOf(v)[0], q);
+    column.k[entry] = static_cast<float>(seen.k);
+    sight_[entry] = seen.sight;
+  }
+  return static_cast<double>(column.k[entry]);
+}
+
+namespace {
+
+// Weights of three places 0, middle and 1 in the parabola through them, at t.
+std::array<double, 3> parabola(double middle, double t) {
+  return {(1 - t) * (middle - t) / middle, t * (1 - t) / (middle * (1 - middle)),
+          t * (t - middle) / (1 - middle)};
+}
+
+}  // namespace
+
+// Over a part of a block: from nine places where all of them see the whole patch, or none anything of it, and
+// the middles are where lines between the corners lead, but for a little; else from smaller parts.
+void Pointwise::fillBlock(const ReceiverBlock& block, const Rectangle& part, std::uint32_t q,
+                          Column& column) {
+  const std::uint32_t wide = part.i1 - part.i0, high = part.j1 - part.j0;
+  if ((wide <= 2 && high <= 2) || wide < 2 || high < 2) {
+    for (std::uint32_t j = part.j0; j <= part.j1; ++j) {
+      for (std::uint32_t i = part.i0; i <= part.i1; ++i) exactly(block.at(i, j), q, column);
+    }
+    return;
+  }
+  const std::array<std::uint32_t, 3> is{part.i0, part.i0 + wide / 2, part.i1},
+      js{part.j0, part.j0 + high / 2, part.j1};
+  std::array<std::array<double, 3>, 3> k;  // [j][i]
+  int all = 0, nothing = 0;
+  double most = 0;
+  for (std::size_t j = 0; j < 3; ++j) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t v = block.at(is[i], js[j]);
+      k[j][i] = exactly(v, q, column);
+      most = std::max(most, k[j][i]);
+      all += sight_[v - column.first] == Sight::kAll;
+      nothing += sight_[v - column.first] == Sight::kNothing;
+    }
+  }
+  const double middle_u = (wide / 2) / double(wide), middle_v = (high / 2) / double(high);
+  const auto along = [](double a, double b, double t) { return a + t * (b - a); };
+  double bend = std::abs(
+      k[1][1] - along(along(k[0][0], k[0][2], middle_u), along(k[2][0], k[2][2], middle_u), middle_v));
+  for (const std::size_t end : {0u, 2u}) {
+    bend = std::max(bend, std::abs(k[end][1] - along(k[end][0], k[end][2], middle_u)));
+    bend = std::max(bend, std::abs(k[1][end] - along(k[0][end], k[2][end], middle_v)));
+  }
+  const bool follows = nothing == 9 || (all == 9 && bend <= kMostBend * most);
+  if (!follows) {
+    const std::uint32_t i = wide > 2 ? is[1] : part.i1, j = high > 2 ? js[1] : part.j1;
+    fillBlock(block, {part.i0, i, part.j0, j}, q, column);
+    if (i < part.i1) fillBlock(block, {i, part.i1, part.j0, j}, q, column);
+    if (j < part.j1) fillBlock(block, {part.i0, i, j, part.j1}, q, column);
+    if (i < part.i1 && j < part.j1) fillBlock(block, {i, part.i1, j, part.j1}, q, column);
+    return;
+  }
+  for (std::uint32_t j = part.j0; j <= part.j1; ++j) {
+    const std::array<double, 3> along_v = parabola(middle_v, (j - part.j0) / double(high));
+    for (std::uint32_t i = part.i0; i <= part.i1; ++i) {
+      const std::uint32_t entry = block.at(i, j) - column.first;
+      if (sight_[entry] != Sight::kUnknown) continue;
+      sight_[entry] = Sight::kInterpolated;
+      if (nothing == 9) continue;
+      const std::array<double, 3> along_u = parabola(middle_u, (i - part.i0) / double(wide));
+      double sum = 0;
+      for (std::size_t b = 0; b < 3; ++b) {
+        for (std::size_t a = 0; a < 3; ++a) sum += along_v[b] * along_u[a] * k[b][a];
+      }
+      column.k[entry] = static_cast<float>(std::max(sum, 0.0));
+    }
+  }
 }
 
 Column Pointwise::column(std::uint32_t q) {
   Column out;
   const Range reached = receivers_->reachedBy(mesh_.emits(q));
   out.first = reached.first;
-  out.k.reserve(reached.count);
-  double received = 0;
-  for (std::uint32_t v = reached.first; v < reached.end(); ++v) {
-    out.k.push_back(static_cast<float>(factor(v, q)));
-    received += static_cast<double>(out.k.back()) * receivers_->area[v];
+  out.k.assign(reached.count, 0.0f);
+  if (blocks_.blocks.empty() || mesh_.emits(q)) {
+    for (std::uint32_t v = reached.first; v < reached.end(); ++v)
+      out.k[v - out.first] = static_cast<float>(factor(v, q));
+  } else {
+    sight_.assign(reached.count, Sight::kUnknown);
+    for (const ReceiverBlock& block : blocks_.blocks) fillBlock(block, {0, block.nu, 0, block.nv}, q, out);
+    for (const std::uint32_t v : blocks_.rest) out.k[v - out.first] = static_cast<float>(factor(v, q));
   }
+  double received = 0;
+  for (std::uint32_t v = reached.first; v < reached.end(); ++v)
+    received += static_cast<double>(out.k[v - out.first]) * receivers_->area[v];
   out.escape = escapeOf(q);
   out.defect = 1 - out.escape - received / mesh_.patch_area[q];
   return out;

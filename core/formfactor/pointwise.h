@@ -9,6 +9,7 @@
 #include "base/cancel.h"
 #include "formfactor/methods.h"
 #include "formfactor/patch_polygons.h"
+#include "formfactor/receiver_blocks.h"
 
 namespace unshot {
 
@@ -39,8 +40,20 @@ class Pointwise final : public FormFactorMethod {
   std::string note() const override { return visibility_ ? visibility_->note() : std::string(); }
 
  private:
+  // How much of a patch a receiver sees.
+  enum class Sight : std::uint8_t { kUnknown, kInterpolated, kNothing, kPart, kAll };
+  struct Seen {
+    double k = 0;
+    Sight sight = Sight::kNothing;
+  };
+  struct Rectangle {
+    std::uint32_t i0, i1, j0, j1;
+  };
+
   double factor(std::uint32_t v, std::uint32_t q);
-  double factor(const ReceiverView& from, std::uint32_t q);
+  Seen factor(const ReceiverView& from, std::uint32_t q);
+  void fillBlock(const ReceiverBlock& block, const Rectangle& part, std::uint32_t q, Column& column);
+  double exactly(std::uint32_t v, std::uint32_t q, Column& column);
   double escapeOf(std::uint32_t q);
   double escapeAlongRows(std::uint32_t q);
   void groupShares();
@@ -52,6 +65,8 @@ class Pointwise final : public FormFactorMethod {
   std::vector<glm::dvec3> scratch_;
   std::vector<PatchShare> by_patch_;
   std::vector<std::uint32_t> share_start_;
+  ReceiverBlocks blocks_;           // where columns are interpolated
+  std::vector<Sight> sight_;        // of the column that is being filled, per entry
   std::vector<double> row_escape_;  // per receiver; below 0: not known yet
 };
 

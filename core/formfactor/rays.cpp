@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <span>
 
 #include "base/cosine_direction.h"
 #include "base/random.h"
@@ -75,13 +76,21 @@ class ShadowRays final : public Visibility {
   double share(const ReceiverView& from, const glm::dvec3& eye, std::uint32_t q, std::size_t level) {
     const glm::dvec3& normal = mesh_.sides[mesh_.patch_side[q]].normal;
     double all = 0, visible = 0;
-    for (const glm::dvec3& sample : samplesOf(q, level)) {
-      const glm::dvec3 to = sample - from.position;
-      const double square = glm::dot(to, to), near = glm::dot(to, from.normal), far = -glm::dot(to, normal);
-      if (near <= 0 || far <= 0) continue;  // below the horizon: not hidden, not there
-      const double kernel = near * far / (square * square);
-      all += kernel;
-      if (!rays_.rays().occluded(eye, rays_.rays().lifted(sample, normal))) visible += kernel;
+    const std::span<const glm::dvec3> samples = samplesOf(q, level);
+    for (std::size_t first = 0; first < samples.size(); first += SceneRays::kTogether) {
+      std::array<glm::dvec3, SceneRays::kTogether> ends;
+      std::array<double, SceneRays::kTogether> kernels;
+      std::size_t count = 0;
+      for (const glm::dvec3& sample :
+           samples.subspan(first, std::min(SceneRays::kTogether, samples.size() - first))) {
+        const glm::dvec3 to = sample - from.position;
+        const double square = glm::dot(to, to), near = glm::dot(to, from.normal), far = -glm::dot(to, normal);
+        if (near <= 0 || far <= 0) continue;  // below the horizon: not hidden, not there
+        all += kernels[count] = near * far / (square * square);
+        ends[count++] = rays_.rays().lifted(sample, normal);
+      }
+      const std::uint32_t hidden = occluded(eye, {ends.data(), count});
+      for (std::size_t k = 0; k < count; ++k) visible += hidden >> k & 1 ? 0 : kernels[k];
     }
     if (all > 0) return visible / all;
     if (level + 1 < kLevels) return share(from, eye, q, level + 1);
@@ -94,6 +103,11 @@ class ShadowRays final : public Visibility {
     const double inset = inside < 0 ? std::min(kInset, height / (2 * (height - inside))) : kInset;
     const glm::dvec3 near_corner = corner.at + inset * (corner.inside - corner.at);
     return rays_.rays().occluded(eye, rays_.rays().lifted(near_corner, normal)) ? 0 : 1;
+  }
+
+  std::uint32_t occluded(const glm::dvec3& eye, std::span<const glm::dvec3> ends) const {
+    if (ends.size() > 1) return rays_.rays().occluded(eye, ends);
+    return !ends.empty() && rays_.rays().occluded(eye, ends[0]);
   }
 
   double emitterSeen(const ReceiverView& from, const glm::dvec3& eye, std::uint32_t q) {

@@ -136,6 +136,36 @@ bool SceneRays::occluded(const glm::dvec3& a, const glm::dvec3& b) const {
   return impl_->meetsAny(rayOf(impl_->scale * a, impl_->scale * (b - a), 1));
 }
 
+std::uint32_t SceneRays::occluded(const glm::dvec3& a, std::span<const glm::dvec3> b) const {
+  static_assert(kTogether == 16);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  RTCRay16 rays;
+  alignas(64) int valid[kTogether];
+  const glm::dvec3 origin = impl_->scale * a;
+  for (std::size_t k = 0; k < kTogether; ++k) {
+    const glm::dvec3 way = k < b.size() ? impl_->scale * (b[k] - a) : glm::dvec3(0.0);
+    valid[k] = k < b.size() ? -1 : 0;
+    rays.org_x[k] = static_cast<float>(origin.x);
+    rays.org_y[k] = static_cast<float>(origin.y);
+    rays.org_z[k] = static_cast<float>(origin.z);
+    rays.dir_x[k] = static_cast<float>(way.x);
+    rays.dir_y[k] = static_cast<float>(way.y);
+    rays.dir_z[k] = static_cast<float>(way.z);
+    rays.tnear[k] = 0;
+    rays.tfar[k] = 1;
+    rays.time[k] = 0;
+    rays.mask[k] = ~0u;
+    rays.id[k] = 0;
+    rays.flags[k] = 0;
+  }
+  rtcOccluded16(valid, impl_->scene, &context, &rays);
+  std::uint32_t out = 0;
+  for (std::size_t k = 0; k < b.size(); ++k) out |= static_cast<std::uint32_t>(rays.tfar[k] < 0) << k;
+  return out;
+}
+
 bool SceneRays::meetsAny(const glm::dvec3& origin, const glm::dvec3& direction) const {
   return impl_->meetsAny(rayOf(impl_->scale * origin, direction, INFINITY));
 }

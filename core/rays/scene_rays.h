@@ -44,6 +44,10 @@ class SceneRays {
   std::optional<Hit> intersect(const glm::dvec3& origin, const glm::dvec3& direction) const;
   /// Whether some triangle meets the segment from a to b. Any thread.
   bool occluded(const glm::dvec3& a, const glm::dvec3& b) const;
+  /// Which of the segments from `a` to each of `b`, at most kTogether, some triangle meets: bit k for b[k].
+  /// Much sooner than one by one where they go about the same way. Any thread.
+  std::uint32_t occluded(const glm::dvec3& a, std::span<const glm::dvec3> b) const;
+  static constexpr std::size_t kTogether = 16;
   /// Whether the ray from there (`direction` of unit length) meets any triangle. Any thread.
   bool meetsAny(const glm::dvec3& origin, const glm::dvec3& direction) const;
 

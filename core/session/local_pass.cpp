@@ -1,6 +1,7 @@
 #include "session/local_pass.h"
 
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
 
 #include "base/clock.h"
@@ -119,26 +120,39 @@ glm::dvec3 LocalPass::gather(const ReceiverView& view, std::uint32_t q, bool& ne
   near = true;
   const glm::dvec3& normal = mesh_.sides[mesh_.patch_side[q]].normal;
   const glm::dvec3 eye = rays_ ? rays_->rays().lifted(view.position, view.normal) : view.position;
+  // What rays have to decide on, so many together.
+  std::array<glm::dvec3, SceneRays::kTogether> ends, lights;
+  std::size_t count = 0;
+  const auto decide = [&] {
+    if (count == 0) return;
+    const std::uint32_t hidden = rays_->rays().occluded(eye, {ends.data(), count});
+    for (std::size_t k = 0; k < count; ++k) {
+      if (!(hidden >> k & 1)) sum += lights[k];
+    }
+    count = 0;
+  };
+  const auto add = [&](const Tile& tile, const glm::dvec3& light) {
+    const double factor = tile.polygon.quick(view.position, view.normal, scratch_);
+    if (factor <= 0) return;
+    const glm::dvec3& centre = tile.polygon.centre();
+    if (!rays_ || glm::dot(centre - view.position, view.normal) <= 0) {
+      sum += factor * light;
+      return;
+    }
+    ends[count] = rays_->rays().lifted(centre, normal);
+    lights[count++] = factor * light;
+    if (count == ends.size()) decide();
+  };
   for (const std::uint32_t g : groups_of_patch_[q]) {
     const Group& group = groups_[g];
     if (glm::distance(view.position, group.middle) > kNear * group.radius) {
-      for (const Tile& tile : group.whole) sum += gather(view, eye, tile, normal, group_light_[g]);
+      for (const Tile& tile : group.whole) add(tile, group_light_[g]);
     } else {
-      for (const Tile& tile : group.parts)
-        sum += gather(view, eye, tile, normal, element_light_[tile.element]);
+      for (const Tile& tile : group.parts) add(tile, element_light_[tile.element]);
     }
   }
+  decide();
   return sum;
-}
-
-glm::dvec3 LocalPass::gather(const ReceiverView& view, const glm::dvec3& eye, const Tile& tile,
-                             const glm::dvec3& normal, const glm::dvec3& light) {
-  const double factor = tile.polygon.quick(view.position, view.normal, scratch_);
-  if (factor <= 0) return glm::dvec3(0.0);
-  const bool above = glm::dot(tile.polygon.centre() - view.position, view.normal) > 0;
-  if (rays_ && above && rays_->rays().occluded(eye, rays_->rays().lifted(tile.polygon.centre(), normal)))
-    return glm::dvec3(0.0);
-  return factor * light;
 }
 
 }  // namespace unshot

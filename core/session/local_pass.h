@@ -46,8 +46,6 @@ class LocalPass {
   void makeGroups();
   void gather(std::uint32_t q, const Column& column);
   glm::dvec3 gather(const ReceiverView& view, std::uint32_t q, bool& near);
-  glm::dvec3 gather(const ReceiverView& view, const glm::dvec3& eye, const Tile& tile,
-                    const glm::dvec3& normal, const glm::dvec3& light);
 
   const Mesh& mesh_;
   const Receivers& receivers_;

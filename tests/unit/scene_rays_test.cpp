@@ -113,5 +113,29 @@ TEST(SceneRays, DrawPointsUniformlyFromTriangles) {
   EXPECT_DOUBLE_EQ(rays.triangle(0).area, 0.5);
 }
 
+TEST(SceneRays, TogetherFindWhatEachFindsAlone) {
+  const Scene scene = publishedCornellBox();
+  const SceneRays rays = raysOf(scene);
+  Dice dice(5);
+  const double size = glm::length(scene.bounds_max - scene.bounds_min);
+  const glm::dvec3 middle = (scene.bounds_min + scene.bounds_max) / 2.0;
+  std::size_t met = 0, all = 0;
+  for (int k = 0; k < 500; ++k) {
+    const glm::dvec3 from = middle + dice.inCube(0.3 * size);
+    std::vector<glm::dvec3> to;
+    for (std::size_t n = static_cast<std::size_t>(k) % (SceneRays::kTogether + 1); to.size() < n;)
+      to.push_back(middle + dice.inCube(0.3 * size));
+    const std::uint32_t found = rays.occluded(from, to);
+    for (std::size_t n = 0; n < to.size(); ++n) {
+      EXPECT_EQ(found >> n & 1, rays.occluded(from, to[n]) ? 1u : 0u);
+      met += found >> n & 1;
+      ++all;
+    }
+    EXPECT_EQ(std::uint64_t{found} >> to.size(), 0u);
+  }
+  EXPECT_GT(met, all / 10);
+  EXPECT_LT(met, all * 9 / 10);
+}
+
 }  // namespace
 }  // namespace unshot
