@@ -147,8 +147,7 @@ class HemicubeSight final : public Visibility {
     if (uv.x < 0 || uv.y < 0 || uv.x > surface.extent.x || uv.y > surface.extent.y) return false;
     const Range pieces = mesh_.cells[cellAt(surface, uv)].pieces;
     for (std::uint32_t p = pieces.first; p < pieces.end(); ++p) {
-      const Range corners = mesh_.pieces[p].corners;
-      if (contains(std::span(&mesh_.piece_corners[corners.first], corners.count), uv)) return true;
+      if (contains(mesh_.cornersOf(mesh_.pieces[p]), uv)) return true;
     }
     return false;
   }

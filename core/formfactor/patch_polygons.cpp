@@ -51,16 +51,14 @@ void PatchPolygons::collect(const Mesh& mesh, std::uint32_t q) {
   const Region region = regionOfPatch(mesh, side.surface, local);
   patch.centre = surface.point(region.sample);
   const glm::dvec2 size = region.high - region.low;
-  const auto add = [&](std::vector<glm::dvec3> corners) {
-    if (side.back) std::reverse(corners.begin(), corners.end());
-    patch.parts.emplace_back(std::move(corners));
-  };
   const double rectangle = size.x * size.y;
   if (std::abs(region.area - rectangle) <= 1e-9 * rectangle &&
       std::abs(mesh.patch_area[q] - rectangle) <= 1e-9 * rectangle) {
     patch.rectangle = true;
-    add({surface.point(region.low), surface.point({region.high.x, region.low.y}), surface.point(region.high),
-         surface.point({region.low.x, region.high.y})});
+    std::vector<glm::dvec3> corners{surface.point(region.low), surface.point({region.high.x, region.low.y}),
+                                    surface.point(region.high), surface.point({region.low.x, region.high.y})};
+    if (side.back) std::reverse(corners.begin(), corners.end());
+    patch.parts.emplace_back(std::move(corners));
     enclose(patch);
     return;
   }
@@ -70,11 +68,7 @@ void PatchPolygons::collect(const Mesh& mesh, std::uint32_t q) {
       const Range pieces = mesh.cells[surface.first_cell + j * surface.nu + i].pieces;
       for (std::uint32_t p = pieces.first; p < pieces.end(); ++p) {
         if (mesh.shapes[surface.elements.first + mesh.pieces[p].element].patch != local) continue;
-        std::vector<glm::dvec3> polygon;
-        const Range corners = mesh.pieces[p].corners;
-        for (std::uint32_t k = corners.first; k < corners.end(); ++k)
-          polygon.push_back(surface.point(mesh.piece_corners[k].uv));
-        add(std::move(polygon));
+        patch.parts.emplace_back(outlineOf(mesh, side, mesh.pieces[p]));
       }
     }
   }

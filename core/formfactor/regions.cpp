@@ -22,10 +22,6 @@ struct Gatherer {
   }
 };
 
-std::span<const PieceCorner> cornersOf(const Mesh& mesh, const Piece& piece) {
-  return {&mesh.piece_corners[piece.corners.first], piece.corners.count};
-}
-
 // Calls f with each piece in the cell that is of the patch.
 template <class F>
 void forPieces(const Mesh& mesh, const Surface& s, std::uint32_t cell, std::uint32_t patch, F&& f) {
@@ -33,7 +29,7 @@ void forPieces(const Mesh& mesh, const Surface& s, std::uint32_t cell, std::uint
   for (std::uint32_t p = pieces.first; p < pieces.end(); ++p) {
     const Piece& piece = mesh.pieces[p];
     if (patch == kNone || mesh.shapes[s.elements.first + piece.element].patch == patch)
-      f(cornersOf(mesh, piece));
+      f(mesh.cornersOf(piece));
   }
 }
 

@@ -193,39 +193,10 @@ class SurfaceGrid {
         target.element = target.element == kNone || target.element == element ? element : kMixed;
       }
     }
-    placeCentres();
+    placeCentres(mesh_, surface_, cancel_);
   }
 
   std::uint32_t firstPiece() const { return mesh_.cells[surface_.first_cell].pieces.first; }
-
-  // The centroid, or where that falls outside the element, the centre of its largest piece.
-  void placeCentres() {
-    const std::uint32_t n = surface_.elements.count;
-    std::vector<glm::dvec2> moment(n, glm::dvec2(0.0)), largest_centre(n, glm::dvec2(0.0));
-    std::vector<double> largest(n, 0.0);
-    for (std::uint32_t k = firstPiece(); k < mesh_.pieces.size(); ++k) {
-      const Piece& piece = mesh_.pieces[k];
-      const glm::dvec2 centre =
-          polygonCentroid({&mesh_.piece_corners[piece.corners.first], piece.corners.count});
-      moment[piece.element] += piece.area * centre;
-      if (piece.area <= largest[piece.element]) continue;
-      largest[piece.element] = piece.area;
-      largest_centre[piece.element] = centre;
-    }
-    for (std::uint32_t e = 0; e < n; ++e) {
-      cancel_.check();
-      ElementShape& shape = mesh_.shapes[surface_.elements.first + e];
-      const glm::dvec2 centroid = moment[e] / shape.area;
-      bool inside = false;
-      const Range pieces = mesh_.cells[cellAt(surface_, centroid)].pieces;
-      for (std::uint32_t k = pieces.first; k < pieces.end() && !inside; ++k) {
-        const Range corners = mesh_.pieces[k].corners;
-        inside = mesh_.pieces[k].element == e &&
-                 contains({&mesh_.piece_corners[corners.first], corners.count}, centroid);
-      }
-      shape.centre = surface_.point(inside ? centroid : largest_centre[e]);
-    }
-  }
 
   void makeTree(const PartGraph& graph) {
     surface_.root = static_cast<std::uint32_t>(mesh_.nodes.size());
@@ -349,15 +320,38 @@ void gridSurface(Mesh& mesh, std::uint32_t surface, std::uint32_t nu, std::uint3
   SurfaceGrid(mesh, surface, patch_cells, paired, contacts, tolerance, cancel).run(nu, nv);
 }
 
+void placeCentres(Mesh& mesh, const Surface& surface, const CancelToken& cancel) {
+  const std::uint32_t n = surface.elements.count;
+  std::vector<glm::dvec2> moment(n, glm::dvec2(0.0)), largest_centre(n, glm::dvec2(0.0));
+  std::vector<double> largest(n, 0.0);
+  for (std::uint32_t k = mesh.cells[surface.first_cell].pieces.first; k < mesh.pieces.size(); ++k) {
+    const Piece& piece = mesh.pieces[k];
+    const glm::dvec2 centre = polygonCentroid(mesh.cornersOf(piece));
+    moment[piece.element] += piece.area * centre;
+    if (piece.area <= largest[piece.element]) continue;
+    largest[piece.element] = piece.area;
+    largest_centre[piece.element] = centre;
+  }
+  for (std::uint32_t e = 0; e < n; ++e) {
+    cancel.check();
+    ElementShape& shape = mesh.shapes[surface.elements.first + e];
+    const glm::dvec2 centroid = moment[e] / shape.area;
+    bool inside = false;
+    const Range pieces = mesh.cells[cellAt(surface, centroid)].pieces;
+    for (std::uint32_t k = pieces.first; k < pieces.end() && !inside; ++k)
+      inside = mesh.pieces[k].element == e && contains(mesh.cornersOf(mesh.pieces[k]), centroid);
+    shape.centre = surface.point(inside ? centroid : largest_centre[e]);
+  }
+}
+
 std::uint32_t elementAt(const Mesh& mesh, const Surface& s, const glm::dvec2& uv, double margin) {
   const Cell& cell = mesh.cells[cellAt(s, uv)];
   if (cell.element != kMixed) return cell.element;
   std::uint32_t best = kNone, other = kNone;
   double least = INFINITY, least_other = INFINITY;
   for (std::uint32_t k = cell.pieces.first; k < cell.pieces.end(); ++k) {
-    const Range corners = mesh.pieces[k].corners;
     const std::uint32_t element = mesh.pieces[k].element;
-    const double outside = distanceOutside({&mesh.piece_corners[corners.first], corners.count}, uv);
+    const double outside = distanceOutside(mesh.cornersOf(mesh.pieces[k]), uv);
     if (outside < least) {
       if (element != best) {
         other = best;

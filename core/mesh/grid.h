@@ -22,6 +22,10 @@ void gridSurface(Mesh& mesh, std::uint32_t surface, std::uint32_t nu, std::uint3
                  std::uint32_t patch_cells, bool paired, const std::vector<ContactSegment>& contacts,
                  double tolerance, const CancelToken& cancel = {});
 
+/// Sets the centres of the elements of the surface whose pieces were made last: the centroid or, where that
+/// falls outside the element, the centre of its largest piece.
+void placeCentres(Mesh& mesh, const Surface& surface, const CancelToken& cancel);
+
 /// The cell (its index in Mesh::cells) at chart position uv, clamped to the grid.
 inline std::uint32_t cellAt(const Surface& s, const glm::dvec2& uv) {
   const double x = uv.x / s.extent.x * s.nu, y = uv.y / s.extent.y * s.nv;

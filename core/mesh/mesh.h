@@ -9,11 +9,13 @@
 // surface; each side that light can reach has its own elements and patches, numbered over the whole mesh.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "base/diagnostic.h"
@@ -180,6 +182,9 @@ struct Mesh {
 
   std::vector<SmoothPair> smooth_pairs;
   double weld_distance = 0;  ///< points closer than this are one [m]
+  std::span<const PieceCorner> cornersOf(const Piece& piece) const {
+    return {piece_corners.data() + piece.corners.first, piece.corners.count};
+  }
   /// Whether patch q is an emitter.
   bool emits(std::uint32_t q) const { return sides[patch_side[q]].emission != glm::dvec3(0.0); }
 
@@ -187,5 +192,14 @@ struct Mesh {
   double lit_area = 0;      ///< over sides [m^2]
   Diagnostics diagnostics;
 };
+
+/// Corners of a piece in space, counter-clockwise as seen from the side.
+inline std::vector<glm::dvec3> outlineOf(const Mesh& mesh, const Side& side, const Piece& piece) {
+  std::vector<glm::dvec3> out;
+  for (const PieceCorner& corner : mesh.cornersOf(piece))
+    out.push_back(mesh.surfaces[side.surface].point(corner.uv));
+  if (side.back) std::reverse(out.begin(), out.end());
+  return out;
+}
 
 }  // namespace unshot

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "mesh/display.h"
+#include "mesh/grid.h"
 #include "mesh/numbering.h"
 #include "mesh/patch_lattice.h"
 
@@ -66,7 +67,7 @@ class Refiner {
       surface.cut = surface.cut || cell.pieces.count != pieces.count;
     }
     surface.elements.count = static_cast<std::uint32_t>(mesh_.shapes.size()) - surface.elements.first;
-    placeCentres(surface);
+    placeCentres(mesh_, surface, cancel_);
   }
 
   void refine(const std::vector<Part>& parts, const glm::dvec2& low, const glm::dvec2& high,
@@ -121,38 +122,6 @@ class Refiner {
                               area,
                               element});
       mesh_.piece_corners.insert(mesh_.piece_corners.end(), part.polygon.begin(), part.polygon.end());
-    }
-  }
-
-  // The centre of the piece in which the centroid lies or, where it lies in none, of the largest.
-  void placeCentres(const Surface& surface) {
-    struct Sum {
-      glm::dvec2 moment{0.0}, largest_centre{0.0};
-      double largest = 0;
-      bool inside = false;
-    };
-    std::vector<Sum> sums(surface.elements.count);
-    const std::uint32_t first = mesh_.cells[surface.first_cell].pieces.first;
-    const auto polygon = [&](const Piece& piece) {
-      return std::span<const PieceCorner>(&mesh_.piece_corners[piece.corners.first], piece.corners.count);
-    };
-    for (std::uint32_t p = first; p < mesh_.pieces.size(); ++p) {
-      const Piece& piece = mesh_.pieces[p];
-      Sum& sum = sums[piece.element];
-      const glm::dvec2 centre = polygonCentroid(polygon(piece));
-      sum.moment += piece.area * centre;
-      if (piece.area <= sum.largest) continue;
-      sum.largest = piece.area;
-      sum.largest_centre = centre;
-    }
-    for (std::uint32_t p = first; p < mesh_.pieces.size(); ++p) {
-      Sum& sum = sums[mesh_.pieces[p].element];
-      const ElementShape& shape = mesh_.shapes[surface.elements.first + mesh_.pieces[p].element];
-      sum.inside = sum.inside || contains(polygon(mesh_.pieces[p]), sum.moment / shape.area);
-    }
-    for (std::uint32_t e = 0; e < surface.elements.count; ++e) {
-      ElementShape& shape = mesh_.shapes[surface.elements.first + e];
-      shape.centre = surface.point(sums[e].inside ? sums[e].moment / shape.area : sums[e].largest_centre);
     }
   }
 

@@ -23,12 +23,8 @@ void forEachPiece(const Mesh& mesh, F&& f) {
     for (std::uint32_t c = surface.first_cell; c < end; ++c) {
       const Range pieces = mesh.cells[c].pieces;
       for (std::uint32_t p = pieces.first; p < pieces.end(); ++p) {
-        const Range corners = mesh.pieces[p].corners;
-        std::vector<glm::dvec3> polygon;
-        for (std::uint32_t k = corners.first; k < corners.end(); ++k)
-          polygon.push_back(surface.point(mesh.piece_corners[k].uv));
-        if (side.back) std::reverse(polygon.begin(), polygon.end());
-        f(side.first_element + mesh.pieces[p].element, FactorPolygon(std::move(polygon)));
+        const Piece& piece = mesh.pieces[p];
+        f(side.first_element + piece.element, FactorPolygon(outlineOf(mesh, side, piece)));
       }
     }
   }

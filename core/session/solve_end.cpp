@@ -13,7 +13,7 @@ constexpr double kSolverShare = 0.4;
 // bound needs long after they have nothing left to do.
 constexpr double kLittleUnshot = 0.25;
 // An estimate counts from so many places on; what asks for a word is so many times the error asked for.
-constexpr std::size_t kEnoughPlaces = 64;
+constexpr std::size_t kEnoughPlaces = 256;
 constexpr double kFarAbove = 3;
 
 }  // namespace
