@@ -16,6 +16,8 @@ namespace {
 
 // Pieces with less than this share of their part's rectangle are rounding.
 constexpr double kNoArea = 1e-12;
+// Of a part's rectangle: what is smaller is not quartered.
+constexpr double kSliver = 1e-5;
 // Weights below this are rounding of vertices, which are in single precision.
 constexpr double kNoWeight = 1e-4;
 
@@ -75,11 +77,16 @@ class Refiner {
     if (parts.empty()) return;
     if (depth >= kMostRefined || !asksForMore(parts, low, high, depth)) return store(parts, depth);
     const glm::dvec2 middle = (low + high) / 2.0;
+    // Slivers stay whole: quartered they would be lost to rounding, and with them their patch.
+    const double small = kSliver * (high.x - low.x) * (high.y - low.y);
+    std::vector<Part> slivers, large;
+    for (const Part& part : parts) (polygonArea(part.polygon) < small ? slivers : large).push_back(part);
+    store(slivers, depth);
     ConvexPolygon half, quarter;
     for (int q = 0; q < 4; ++q) {
       const glm::bvec2 above(q & 1, q & 2);
       std::vector<Part> in;
-      for (const Part& part : parts) {
+      for (const Part& part : large) {
         clipAt(part.polygon, 0, middle.x, above.x ? 1 : -1, half);
         if (half.empty()) continue;
         clipAt(half, 1, middle.y, above.y ? 1 : -1, quarter);

@@ -4,12 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <glm/geometric.hpp>
 
 #include "formfactor/receivers.h"
 #include "mesh/build.h"
 #include "mesh/patch_lattice.h"
 #include "scene/analytic_scenes.h"
+#include "scene/obj_reader.h"
 #include "support/dice.h"
 #include "support/mesh_checks.h"
 #include "support/test_scenes.h"
@@ -58,6 +62,21 @@ TEST(RefinedMesh, IsSoundAndKeepsSidesAndPatches) {
     for (std::uint32_t e = 0; e < base->element_count; ++e)
       EXPECT_NEAR(area[e], base->element_area[e], 1e-9 * base->element_area[e]);
   }
+}
+
+// Contacts that nearly coincide leave slivers of cells far below rounding of their area, with patches of
+// their own.
+TEST(RefinedMesh, LosesNoSliver) {
+  const char* scenes = std::getenv("UNSHOT_SCENES");
+  if (!scenes) GTEST_SKIP() << "UNSHOT_SCENES is not set";
+  const auto base = baseOf(readObj(std::filesystem::path(scenes) / "holodeck" / "holodeck.obj"), 2500);
+  const Mesh mesh = refineMesh(base, [](const CellPart& part) { return part.depth < 1; });
+  double least = INFINITY;
+  for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
+    least = std::min(least, base->patch_area[q]);
+    EXPECT_NEAR(mesh.patch_area[q] / base->patch_area[q], 1, 1e-3);
+  }
+  EXPECT_LT(least, 1e-9);
 }
 
 TEST(RefinedMesh, IsTheBaseWhereNothingIsQuartered) {
