@@ -5,11 +5,10 @@
 // sampled too (next-event estimation), and both are weighted by the power heuristic of multiple importance
 // sampling (E. Veach, "Robust Monte Carlo methods for light transport simulation", 1997, section 9.2), so
 // that emitters that touch a receiver, lie in its plane or are hard to hit do no harm. What leaves the scene
-// meets the sky. Russian roulette ends
-// a path. Directions and emitters at the first vertices are stratified over a batch of paths (jittered
-// grids); batches are independent of each other. Assumes two-sided diffuse surfaces. Error: random alone, but
-// for surfaces nearer to each other than twice SceneRays::lift, and for rays that meet a wall in its very
-// edge and pass it (3e-7 of them in a room of 1 m).
+// meets the sky. Russian roulette ends a path. Directions and emitters at the first vertices are stratified
+// over a batch of paths (jittered grids); batches are independent of each other. Assumes two-sided diffuse
+// surfaces. Error: random alone, but for surfaces nearer to each other than twice SceneRays::lift, and for
+// rays that meet a wall in its very edge and pass it (3e-7 of them in a room of 1 m).
 #pragma once
 
 #include <cstdint>
