@@ -162,7 +162,9 @@ TEST_F(SessionFailure, OfNumbersKeepsTheLastGoodSnapshot) {
 TEST_F(SessionFailure, ASceneWithoutLightHasConvergedAtOnce) {
   SessionWatch watch;
   folder_.write("room.mtl", kMaterials);
-  watch->open(folder_.write("dark.obj", roomObj("white", "white")), closedForm(24, 0.01));
+  SolveOptions options = closedForm(24, 0.01);
+  options.sky = glm::dvec3(0.0);
+  watch->open(folder_.write("dark.obj", roomObj("white", "white")), options);
   const StatePointer state = watch.rested();
   EXPECT_EQ(state->phase, SessionPhase::kConverged);
   EXPECT_EQ(state->stopped_by, "no light");
