@@ -32,7 +32,7 @@ TEST(WindowScript, PausesStepsResizesOpensAndCloses) {
               "screenshot converged.png\nsize 900x600\nscreenshot large.png\nopen " +
                   kFurnace +
                   "\nwait converged\nscreenshot furnace.png\n"
-                  "elements 100000\nwait shots 1\nquit\n");
+                  "elements 30000\nwait shots 1\nquit\n");
   const ImageF converged = picture(folder, "converged.png"), large = picture(folder, "large.png"),
                furnace = picture(folder, "furnace.png");
   EXPECT_EQ(std::pair(converged.width, converged.height), std::pair(640, 480));
