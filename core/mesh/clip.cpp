@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace unshot {
 namespace {
@@ -65,7 +66,7 @@ bool contains(std::span<const PieceCorner> polygon, const glm::dvec2& uv) {
 }
 
 double distanceOutside(std::span<const PieceCorner> polygon, const glm::dvec2& uv) {
-  double most = 0;
+  double most = -std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const glm::dvec2 edge = polygon[(k + 1) % polygon.size()].uv - polygon[k].uv;
     const double length = glm::length(edge);

@@ -21,7 +21,8 @@ glm::dvec2 polygonCentroid(std::span<const PieceCorner> polygon);
 /// Whether uv lies in the counter-clockwise convex polygon, its border included.
 bool contains(std::span<const PieceCorner> polygon, const glm::dvec2& uv);
 
-/// 0 inside, else how far uv lies beyond the edge it is farthest beyond (the distance, but near corners).
+/// How far uv lies beyond the edge it is farthest beyond (the distance, but near corners); inside, below 0,
+/// how far it lies from the nearest edge.
 double distanceOutside(std::span<const PieceCorner> polygon, const glm::dvec2& uv);
 
 }  // namespace unshot

@@ -352,6 +352,7 @@ std::uint32_t elementAt(const Mesh& mesh, const Surface& s, const glm::dvec2& uv
   for (std::uint32_t k = cell.pieces.first; k < cell.pieces.end(); ++k) {
     const std::uint32_t element = mesh.pieces[k].element;
     const double outside = distanceOutside(mesh.cornersOf(mesh.pieces[k]), uv);
+    if (outside <= -margin) return element;  // well inside
     if (outside < least) {
       if (element != best) {
         other = best;

@@ -79,7 +79,8 @@ TEST(Clip, HasAreaAndCentroidOfARectangle) {
   EXPECT_TRUE(contains(r, {1, 2}));
   EXPECT_TRUE(contains(r, {3, 3}));
   EXPECT_FALSE(contains(r, {0.999, 3}));
-  EXPECT_EQ(distanceOutside(r, {3, 3}), 0);
+  EXPECT_NEAR(distanceOutside(r, {3, 3}), -1, 1e-14);
+  EXPECT_NEAR(distanceOutside(r, {1, 4}), 0, 1e-14);
   EXPECT_NEAR(distanceOutside(r, {0.5, 3}), 0.5, 1e-14);
   EXPECT_NEAR(distanceOutside(r, {3, 9}), 2, 1e-14);
 }
