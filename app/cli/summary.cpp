@@ -42,6 +42,12 @@ std::string estimatesText(const ErrorEstimates& estimates) {
          estimateText(estimates.discretisation) + ", both " + estimateText(estimates.both);
 }
 
+std::string totalText(const ErrorEstimates& estimates) {
+  if (estimates.total.places == 0) return "not estimated";
+  return "about " + estimateText(estimates.total) + " of the reflected light in all, from " +
+         countedText(estimates.total.places, "place");
+}
+
 std::string defectsText(const FormFactorDefects& defects) {
   if (!defects.closure) return "not examined";
   return "closure is off by " + percentText(*defects.closure) +
@@ -75,6 +81,7 @@ void printSummary(std::ostream& out, const RunRecord& record, const SolveOptions
       {"renderer", rendererText(record)},
       {"shots", shotsText(record.counts)},
       {"unshot", percentText(record.measures.unshot_fraction)},
+      {"error", totalText(record.estimates)},
       {"solver error", boundText(record.measures.bounds)},
       {"other errors", estimatesText(record.estimates)},
       {"form factors", defectsText(record.estimates.defects)},

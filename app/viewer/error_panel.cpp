@@ -59,6 +59,7 @@ std::string solverText(const Measures& m) {
 }
 
 std::string errorInFront(const LaneState& state) {
+  if (state.estimates.total.places > 0) return "error about " + percentText(state.estimates.total.value);
   const double bound = state.measures.solverBound();
   if (bound >= kMostShown) return percentText(state.measures.unshot_fraction) + " unshot";
   if (state.estimates.both.places == 0) return "error below " + percentText(bound);

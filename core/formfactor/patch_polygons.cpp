@@ -50,28 +50,30 @@ void PatchPolygons::collect(const Mesh& mesh, std::uint32_t q) {
   patch.normal = side.normal;
   const Region region = regionOfPatch(mesh, side.surface, local);
   patch.centre = surface.point(region.sample);
-  const glm::dvec2 size = region.high - region.low;
-  const double rectangle = size.x * size.y;
-  if (std::abs(region.area - rectangle) <= 1e-9 * rectangle &&
-      std::abs(mesh.patch_area[q] - rectangle) <= 1e-9 * rectangle) {
-    patch.rectangle = true;
-    std::vector<glm::dvec3> corners{surface.point(region.low), surface.point({region.high.x, region.low.y}),
-                                    surface.point(region.high), surface.point({region.low.x, region.high.y})};
-    if (side.back) std::reverse(corners.begin(), corners.end());
-    patch.parts.emplace_back(std::move(corners));
-    enclose(patch);
-    return;
-  }
   const Node& node = mesh.nodes[mesh.patch_shapes[surface.patches.first + local].node];
+  glm::dvec2 low = surface.extent, high(0.0);
+  std::vector<std::vector<glm::dvec3>> outlines;
   for (std::uint32_t j = node.v0; j < node.v1; ++j) {
     for (std::uint32_t i = node.u0; i < node.u1; ++i) {
       const Range pieces = mesh.cells[surface.first_cell + j * surface.nu + i].pieces;
       for (std::uint32_t p = pieces.first; p < pieces.end(); ++p) {
         if (mesh.shapes[surface.elements.first + mesh.pieces[p].element].patch != local) continue;
-        patch.parts.emplace_back(outlineOf(mesh, side, mesh.pieces[p]));
+        outlines.push_back(outlineOf(mesh, side, mesh.pieces[p]));
+        for (const PieceCorner& corner : mesh.cornersOf(mesh.pieces[p])) {
+          low = glm::min(low, corner.uv);
+          high = glm::max(high, corner.uv);
+        }
       }
     }
   }
+  const double rectangle = (high.x - low.x) * (high.y - low.y);
+  if (std::abs(mesh.patch_area[q] - rectangle) <= 1e-9 * rectangle) {
+    patch.rectangle = true;
+    outlines = {{surface.point(low), surface.point({high.x, low.y}), surface.point(high),
+                 surface.point({low.x, high.y})}};
+    if (side.back) std::reverse(outlines[0].begin(), outlines[0].end());
+  }
+  for (std::vector<glm::dvec3>& outline : outlines) patch.parts.emplace_back(std::move(outline));
   enclose(patch);
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "mesh/display.h"
 #include "mesh/grid.h"
@@ -23,9 +25,10 @@ constexpr double kNoWeight = 1e-4;
 
 class Refiner {
  public:
-  Refiner(const Mesh& base, Mesh& mesh, const std::function<bool(const CellPart&)>& split,
+  // `own_patches`: quarters have patches of their own.
+  Refiner(const Mesh& base, Mesh& mesh, bool own_patches, const std::function<bool(const CellPart&)>& split,
           const CancelToken& cancel)
-      : base_(base), mesh_(mesh), split_(split), cancel_(cancel) {}
+      : base_(base), mesh_(mesh), own_patches_(own_patches), split_(split), cancel_(cancel) {}
 
   // Returns the base's element of each element, both local to their surfaces, in the order of Mesh::shapes.
   std::vector<std::uint32_t> run() {
@@ -47,6 +50,11 @@ class Refiner {
     const Surface& old = base_.surfaces[s];
     surface.elements = {static_cast<std::uint32_t>(mesh_.shapes.size()), 0};
     whole_.assign(old.elements.count, kNone);
+    patch_.clear();
+    if (own_patches_) {
+      surface.patches = {static_cast<std::uint32_t>(mesh_.patch_shapes.size()), 0};
+      findNodes(old);
+    }
     const glm::dvec2 step = old.extent / glm::dvec2(old.nu, old.nv);
     std::vector<Part> parts;
     for (std::uint32_t c = 0; c < old.nu * old.nv; ++c) {
@@ -60,7 +68,8 @@ class Refiner {
         parts.push_back({{corners, corners + base_.pieces[p].corners.count}, base_.pieces[p].element});
       }
       const glm::dvec2 low = step * glm::dvec2(c % old.nu, c / old.nu);
-      refine(parts, low, low + step, 0);
+      cell_ = c;
+      refine(parts, low, low + step, 0, 0);
       cell.pieces.count = static_cast<std::uint32_t>(mesh_.pieces.size()) - cell.pieces.first;
       for (std::uint32_t p = cell.pieces.first; p < cell.pieces.end(); ++p) {
         const std::uint32_t element = mesh_.pieces[p].element;
@@ -69,19 +78,25 @@ class Refiner {
       surface.cut = surface.cut || cell.pieces.count != pieces.count;
     }
     surface.elements.count = static_cast<std::uint32_t>(mesh_.shapes.size()) - surface.elements.first;
+    for (const auto& [key, patch] : patch_) {
+      const auto left = patch_.find({0, key.second});
+      if (key.first > 0 && left != patch_.end())
+        mesh_.patch_shapes[surface.patches.first + left->second].whole = false;
+    }
     placeCentres(mesh_, surface, cancel_);
   }
 
   void refine(const std::vector<Part>& parts, const glm::dvec2& low, const glm::dvec2& high,
-              std::uint32_t depth) {
+              std::uint32_t depth, std::uint32_t quartered) {
     if (parts.empty()) return;
-    if (depth >= kMostRefined || !asksForMore(parts, low, high, depth)) return store(parts, depth);
+    if (depth >= kMostRefined || !asksForMore(parts, low, high, depth)) return store(parts, depth, quartered);
     const glm::dvec2 middle = (low + high) / 2.0;
     // Slivers stay whole: quartered they would be lost to rounding, and with them their patch.
     const double small = kSliver * (high.x - low.x) * (high.y - low.y);
     std::vector<Part> slivers, large;
     for (const Part& part : parts) (polygonArea(part.polygon) < small ? slivers : large).push_back(part);
-    store(slivers, depth);
+    store(slivers, depth, quartered);
+    quartered = ++quartered_count_;
     ConvexPolygon half, quarter;
     for (int q = 0; q < 4; ++q) {
       const glm::bvec2 above(q & 1, q & 2);
@@ -94,7 +109,7 @@ class Refiner {
           continue;
         in.push_back({quarter, part.element});
       }
-      refine(in, glm::mix(low, middle, above), glm::mix(middle, high, above), depth + 1);
+      refine(in, glm::mix(low, middle, above), glm::mix(middle, high, above), depth + 1, quartered);
     }
   }
 
@@ -107,7 +122,7 @@ class Refiner {
 
   // What was not quartered of an element of the base is one element, wherever it lies; of a quarter, each
   // element of the base in it has its own.
-  void store(const std::vector<Part>& parts, std::uint32_t depth) {
+  void store(const std::vector<Part>& parts, std::uint32_t depth, std::uint32_t quartered) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> here;  // of the base, of the mesh
     for (const Part& part : parts) {
       std::uint32_t element = depth == 0 ? whole_[part.element] : kNone;
@@ -117,7 +132,7 @@ class Refiner {
       if (element == kNone) {
         element = static_cast<std::uint32_t>(mesh_.shapes.size()) - mesh_.surfaces[surface_].elements.first;
         const ElementShape& old = base_.shapes[base_.surfaces[surface_].elements.first + part.element];
-        mesh_.shapes.push_back({0, old.centre, old.patch});
+        mesh_.shapes.push_back({0, old.centre, own_patches_ ? ownPatch(old.patch, quartered) : old.patch});
         base_element_.push_back(part.element);
         if (depth == 0) whole_[part.element] = element;
       }
@@ -132,13 +147,42 @@ class Refiner {
     }
   }
 
+  // What `old` is in a cell (0) or in a part that was quartered.
+  std::uint32_t ownPatch(std::uint32_t old, std::uint32_t quartered) {
+    Range& patches = mesh_.surfaces[surface_].patches;
+    const auto [found, made] = patch_.try_emplace({quartered, old}, patches.count);
+    if (made) {
+      const PatchShape& shape = base_.patch_shapes[base_.surfaces[surface_].patches.first + old];
+      mesh_.patch_shapes.push_back(quartered == 0 ? shape : PatchShape{node_of_cell_[cell_], false});
+      ++patches.count;
+    }
+    return found->second;
+  }
+
+  // The nodes of the patches, which tile the cells: a piece may belong to a patch of the cell beside.
+  void findNodes(const Surface& old) {
+    node_of_cell_.assign(old.nu * old.nv, old.root);
+    for (std::uint32_t q = old.patches.first; q < old.patches.end(); ++q) {
+      const Node& node = base_.nodes[base_.patch_shapes[q].node];
+      for (std::uint32_t v = node.v0; v < node.v1; ++v) {
+        for (std::uint32_t u = node.u0; u < node.u1; ++u)
+          node_of_cell_[v * old.nu + u] = base_.patch_shapes[q].node;
+      }
+    }
+  }
+
   const Mesh& base_;
   Mesh& mesh_;
+  const bool own_patches_;
   const std::function<bool(const CellPart&)>& split_;
   const CancelToken& cancel_;
   std::uint32_t surface_ = 0;
   std::vector<std::uint32_t> whole_;  // element of what is not quartered of each of the base
   std::vector<std::uint32_t> base_element_;
+  std::uint32_t cell_ = 0, quartered_count_ = 0;
+  std::vector<std::uint32_t> node_of_cell_;
+  // Of the part that was quartered (0: none) and the base's patch, that of the mesh; local to the surface.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> patch_;
   std::vector<ConvexPolygon> asked_;
 };
 
@@ -235,9 +279,11 @@ class Interpolation {
 
 }  // namespace
 
-Mesh refineMesh(std::shared_ptr<const Mesh> base, const std::function<bool(const CellPart&)>& split,
-                const CancelToken& cancel) {
-  Mesh mesh = *base;
+namespace {
+
+// A copy without what is made of elements.
+Mesh withoutElements(const Mesh& base) {
+  Mesh mesh = base;
   mesh.pieces.clear();
   mesh.piece_corners.clear();
   mesh.shapes.clear();
@@ -245,7 +291,15 @@ Mesh refineMesh(std::shared_ptr<const Mesh> base, const std::function<bool(const
   mesh.triangle_vertices.clear();
   mesh.triangle_element.clear();
   mesh.vertex_from_elements = {};
-  const std::vector<std::uint32_t> of_shape = Refiner(*base, mesh, split, cancel).run();
+  return mesh;
+}
+
+}  // namespace
+
+Mesh refineMesh(std::shared_ptr<const Mesh> base, const std::function<bool(const CellPart&)>& split,
+                const CancelToken& cancel) {
+  Mesh mesh = withoutElements(*base);
+  const std::vector<std::uint32_t> of_shape = Refiner(*base, mesh, false, split, cancel).run();
   mesh.base = std::move(base);
   numberElements(mesh, cancel);
   for (std::uint32_t e = 0; e < mesh.element_count; ++e) {
@@ -255,6 +309,16 @@ Mesh refineMesh(std::shared_ptr<const Mesh> base, const std::function<bool(const
   }
   makeDisplay(mesh, cancel);
   mesh.vertex_from_base = Interpolation(mesh, cancel).run();
+  return mesh;
+}
+
+Mesh gradedMesh(const Mesh& uniform, const std::function<bool(const CellPart&)>& split,
+                const CancelToken& cancel) {
+  Mesh mesh = withoutElements(uniform);
+  mesh.patch_shapes.clear();
+  Refiner(uniform, mesh, true, split, cancel).run();
+  numberElements(mesh, cancel);
+  makeDisplay(mesh, cancel);
   return mesh;
 }
 

@@ -25,8 +25,13 @@ struct CellPart {
 inline constexpr std::uint32_t kMostRefined = 6;
 
 /// The mesh with each part of a cell quartered for which `split` says so; an element of the base that is not
-/// quartered stays as it is. `base` is a uniform mesh. Throws Cancelled.
+/// quartered stays as it is. Throws Cancelled.
 Mesh refineMesh(std::shared_ptr<const Mesh> base, const std::function<bool(const CellPart&)>& split,
+                const CancelToken& cancel = {});
+
+/// The same from a uniform mesh, but as a mesh of its own: the quarters of a part are patches of their own,
+/// as far as they are not quartered again. Throws Cancelled.
+Mesh gradedMesh(const Mesh& uniform, const std::function<bool(const CellPart&)>& split,
                 const CancelToken& cancel = {});
 
 }  // namespace unshot

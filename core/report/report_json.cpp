@@ -131,6 +131,8 @@ std::string reportJson(const RunRecord& record) {
                    {"form_factor_interval", intervalOf(record.estimates.form_factor)},
                    {"discretisation", valueOf(record.estimates.discretisation)},
                    {"discretisation_interval", intervalOf(record.estimates.discretisation)},
+                   {"total", valueOf(record.estimates.total)},
+                   {"total_interval", intervalOf(record.estimates.total)},
                    {"places", record.estimates.both.places},
                    {"closure_defect", valueOf(record.estimates.defects.closure)},
                    {"reciprocity_defect", valueOf(record.estimates.defects.reciprocity)}}},

@@ -7,6 +7,9 @@
 namespace unshot {
 namespace {
 
+// Where less of the light than this is missing, columns of patches that matter are all in the matrix.
+constexpr double kNearlyWhole = 0.1;
+
 // Share of the solver's work that goes into bounds beyond the passes over patches that each step has anyway.
 constexpr double kShare = 0.034;
 // An operation is one entry of the matrix times a colour, some 5 ns. A column of K takes this many to compute
@@ -115,8 +118,9 @@ const SolverBounds& ErrorBudget::sharpen() {
 const ErrorEstimates& ErrorBudget::estimate(std::size_t more_places, const std::vector<glm::dvec3>& shown) {
   const Timed timed(seconds_);
   if (!residuals_) residuals_.emplace(mesh_, transport_.receivers(), seed_);
-  residuals_->add(more_places);
-  estimates_ = residuals_->estimate(state_, matrix_, shown);
+  residuals_->add(more_places, shown);
+  estimates_ =
+      residuals_->estimate(state_, matrix_, shown, bounds_.complete() || now_.total_upper < kNearlyWhole);
   if (defects_version_ != matrix_.version()) {
     defects_ = matrix_.defects();
     defects_version_ = matrix_.version();

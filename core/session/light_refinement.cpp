@@ -10,6 +10,7 @@
 #include "base/random.h"
 #include "formfactor/direct_light.h"
 #include "mesh/refine.h"
+#include "session/gap_refinement.h"
 
 namespace unshot {
 namespace {
@@ -37,11 +38,13 @@ constexpr double kMostParts = 8;
 // Asked of each part of a cell: whether light in it is not what interpolation makes of that at its corners.
 class LightQuestion {
  public:
-  LightQuestion(const Mesh& base, const LightRefinement& options, const CancelToken& cancel)
+  // `emitters`: the same surfaces in patches that are no finer than need be.
+  LightQuestion(const Mesh& base, const Mesh& emitters, const LightRefinement& options,
+                const CancelToken& cancel)
       : base_(base),
         options_(options),
         cancel_(cancel),
-        light_(base, options.occlusion, options.seed),
+        light_(emitters, options.occlusion, options.seed),
         elements_(base.element_count) {
     if (looksFor(base.element_count) > kMostLooks) return;
     glm::dvec3 sum(0.0);
@@ -159,9 +162,10 @@ class LightQuestion {
 
 }  // namespace
 
-std::shared_ptr<const Mesh> refineForLight(std::shared_ptr<const Mesh> base, const LightRefinement& options,
-                                           const CancelToken& cancel) {
-  LightQuestion question(*base, options, cancel);
+std::shared_ptr<const Mesh> refineForLight(std::shared_ptr<const Mesh> uniform,
+                                           const LightRefinement& options, const CancelToken& cancel) {
+  const std::shared_ptr<const Mesh> base = refineInGaps(uniform, cancel);
+  LightQuestion question(*base, *uniform, options, cancel);
   for (;;) {
     auto mesh = std::make_shared<Mesh>(refineMesh(
         base, [&](const CellPart& part) { return question(part); }, cancel));

@@ -16,8 +16,9 @@ struct LightRefinement {
   std::uint64_t seed = 1;
 };
 
-/// `base` itself where nothing asks for more. Throws Cancelled.
-std::shared_ptr<const Mesh> refineForLight(std::shared_ptr<const Mesh> base, const LightRefinement& options,
-                                           const CancelToken& cancel = {});
+/// Of a uniform mesh, first where gaps in front of lamps are narrow (session/gap_refinement.h): that is the
+/// base of the result, or the result itself where nothing asks for more. Throws Cancelled.
+std::shared_ptr<const Mesh> refineForLight(std::shared_ptr<const Mesh> uniform,
+                                           const LightRefinement& options, const CancelToken& cancel = {});
 
 }  // namespace unshot

@@ -11,13 +11,23 @@
 namespace unshot {
 namespace {
 
-constexpr double kCarryTolerance = 0.01;
-constexpr int kCarryProducts = 12;
+// The carried residual, and then what corrects it, so often.
+struct Carry {
+  double tolerance;
+  int products;
+};
+constexpr Carry kCarry{0.01, 12}, kCorrection{0.1, 4};
+constexpr int kCorrections = 3;
+// What is carried is known per patch. At thousands of path-traced points (the Cornell boxes, two rooms, each
+// at several finenesses) errors were 0.8 to 1.5 times as large as at either end of the interval by noise
+// alone.
+constexpr double kCarryFactor = 1.5;
 // Half the width of a 95 % interval in standard errors, for the few dozens of places that matter of the
 // hundreds.
 constexpr double kInterval = 2.1;
 
-// How many points of its own a patch needs to outweigh what is known of its side.
+// How many places of its own a patch needs to outweigh what is known of its side, a side what is known of
+// all.
 constexpr double kBelief = 2;
 
 double fraction(double x) { return x - std::floor(x); }
@@ -35,24 +45,6 @@ std::uint32_t chooseBy(const std::vector<double>& sums, double u) {
 glm::dvec3 barycentric(double u, double v) {
   const double r = std::sqrt(u);
   return {1 - r, r * (1 - v), r * v};
-}
-
-// H of a gather: what lights have shot of their emission, and what elements and the sky send besides.
-glm::dvec3 irradianceOf(const Gather& gather, const RadiosityState& state,
-                        const std::vector<glm::dvec3>& element_light, const glm::dvec3& sky) {
-  glm::dvec3 sum(0.0);
-  for (const std::uint32_t e : gather.rays) {
-    if (e == kToSky) {
-      sum += sky;
-    } else if (e != kNone) {
-      sum += element_light[e];
-    }
-  }
-  sum /= static_cast<double>(gather.rays.size());
-  for (const Gather::Light& light : gather.lights)
-    sum +=
-        static_cast<double>(light.weight) * (state.emission()[light.patch] - state.emissionLeft(light.patch));
-  return sum;
 }
 
 struct Ratio {
@@ -77,30 +69,97 @@ ErrorEstimate estimateOf(const Ratio& square, std::size_t places) {
   const auto root = [](double x) { return std::sqrt(std::max(x, 0.0)); };
   // Below 0 it is by noise, which leaves room for an error all the same.
   const double value = std::max(square.value, 0.0);
-  return {root(value), root(value - kInterval * square.error), root(value + kInterval * square.error),
-          places};
+  return {root(value), root(value - kInterval * square.error) / kCarryFactor,
+          kCarryFactor * root(value + kInterval * square.error), places};
 }
 
-// Squared nRMSE of what the residuals cause. `residuals` has patch, of_look[2], reflected; they are spread
-// over `area`.
+// What a look meets of light that patches send, one value per patch [W/m^2].
+glm::dvec3 meets(const Gather& look, const std::vector<std::uint32_t>& element_patch,
+                 const std::vector<glm::dvec3>& of_patch) {
+  glm::dvec3 sum(0.0);
+  for (const std::uint32_t e : look.rays)
+    if (e != kNone && e != kToSky) sum += of_patch[element_patch[e]];
+  return sum / static_cast<double>(look.rays.size());
+}
+
+// Sums over places: of values, and of the light that is reflected there.
+struct Shares {
+  glm::dvec3 value{0.0}, light{0.0};
+  double places = 0;
+
+  void add(double weight, const glm::dvec3& v, const glm::dvec3& l) {
+    value += weight * v;
+    light += weight * l;
+    ++places;
+  }
+  // Value over light; with few places it leans on what is known of a larger part.
+  glm::dvec3 ratio(const glm::dvec3& of_larger) const {
+    glm::dvec3 out = of_larger;
+    for (int c = 0; c < 3; ++c) {
+      if (light[c] > 0) out[c] = (places * value[c] / light[c] + kBelief * of_larger[c]) / (places + kBelief);
+    }
+    return out;
+  }
+};
+
+// Means over patches of what is known at places: as a share of the light that the patch reflects, that of
+// its places, its side's, the whole mesh's.
 template <class Residuals>
-Ratio squaredError(const Residuals& residuals, double area, const RadiosityState& state,
-                   const PatchMatrix& matrix) {
-  const std::size_t n = state.patchCount();
-  std::vector<glm::dvec3> carried[2];
-  for (int k = 0; k < 2; ++k) {
-    // M applied to the points' residuals: each stands for its share of the area, whatever its patch.
-    std::vector<glm::dvec3> mean(n, glm::dvec3(0.0)), sent(n);
-    const double share = area / static_cast<double>(residuals.size());
-    for (const auto& r : residuals) mean[r.patch] += share / state.area()[r.patch] * r.of_look[k];
-    matrix.product(mean, sent);
-    for (std::size_t q = 0; q < n; ++q) sent[q] *= state.reflectance()[q];
-    carried[k] = solvePatches(matrix, state.reflectance(), sent, kCarryTolerance, kCarryProducts);
+std::vector<glm::dvec3> patchMeans(const Residuals& residuals, const std::vector<glm::dvec3>& values,
+                                   const Mesh& mesh, const RadiosityState& state) {
+  Shares all;
+  std::vector<Shares> of_side(mesh.sides.size()), of_patch(mesh.patch_count);
+  for (std::size_t k = 0; k < residuals.size(); ++k) {
+    const auto& r = residuals[k];
+    for (Shares* shares : {&all, &of_side[mesh.patch_side[r.patch]], &of_patch[r.patch]})
+      shares->add(r.weight, values[k], r.reflected);
+  }
+  const glm::dvec3 everywhere = all.ratio(glm::dvec3(0.0));
+  std::vector<glm::dvec3> out(state.patchCount(), glm::dvec3(0.0));
+  for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
+    const glm::dvec3 reflected = state.shot()[q] + state.unshot()[q] - state.emission()[q];
+    out[q] = of_patch[q].ratio(of_side[mesh.patch_side[q]].ratio(everywhere)) * reflected;
+  }
+  return out;
+}
+
+// Squared nRMSE of what the residuals cause, at those that count. `residuals` has patch, of_look[2],
+// reflected, weight, counts; places[k].looks are those of residuals[k].
+//
+// With K the true operator, e = r + K e. M in its place leaves the error r' = (K - M) e, which is a residual
+// again: the looks say what K makes of an error that is known per patch.
+template <class Places, class Residuals>
+Ratio squaredError(const Places& places, const Residuals& residuals, const Mesh& mesh,
+                   const RadiosityState& state, const PatchMatrix& matrix) {
+  const std::size_t n = state.patchCount(), count = residuals.size();
+  std::vector<glm::dvec3> error[2];
+  for (int look = 0; look < 2; ++look) {
+    std::vector<glm::dvec3> residual, sum(count, glm::dvec3(0.0));
+    for (const auto& r : residuals) residual.push_back(r.of_look[look]);
+    for (int step = 0;; ++step) {
+      std::vector<glm::dvec3> mean = patchMeans(residuals, residual, mesh, state), sent(n);
+      matrix.product(mean, sent);
+      for (std::size_t q = 0; q < n; ++q) sent[q] *= state.reflectance()[q];
+      const Carry& carry = step == 0 ? kCarry : kCorrection;
+      const std::vector<glm::dvec3> carried =
+          solvePatches(matrix, state.reflectance(), sent, carry.tolerance, carry.products);
+      for (std::size_t k = 0; k < count; ++k) sum[k] += residual[k] + carried[residuals[k].patch];
+      if (step == kCorrections) break;
+      for (std::size_t q = 0; q < n; ++q) mean[q] += carried[q];
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::uint32_t q = residuals[k].patch;
+        residual[k] =
+            state.reflectance()[q] * meets(places[k].looks[look], mesh.element_patch, mean) - carried[q];
+      }
+    }
+    error[look] = std::move(sum);
   }
   std::vector<double> t, s;
-  for (const auto& r : residuals) {
-    t.push_back(glm::dot(r.of_look[0] + carried[0][r.patch], r.of_look[1] + carried[1][r.patch]));
-    s.push_back(glm::dot(r.reflected, r.reflected));
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto& r = residuals[k];
+    if (!r.counts) continue;
+    t.push_back(r.weight * glm::dot(error[0][k], error[1][k]));
+    s.push_back(r.weight * glm::dot(r.reflected + error[0][k], r.reflected + error[1][k]));
   }
   return ratioOf(t, s);
 }
@@ -117,13 +176,13 @@ Residuals::Residuals(const Mesh& mesh, const Receivers& receivers, std::uint64_t
     const glm::dvec3 p0(mesh.vertices[corner[0]].position);
     const glm::dvec3 across = glm::cross(glm::dvec3(mesh.vertices[corner[1]].position) - p0,
                                          glm::dvec3(mesh.vertices[corner[2]].position) - p0);
-    if (counts(mesh.element_patch[mesh.triangle_element[t]])) sum += glm::length(across) / 2;
+    sum += glm::length(across) / 2;
     triangle_area_sum_.push_back(sum);
     triangles_of_element_[mesh.triangle_element[t]].push_back(t);
   }
   sum = 0;
   for (std::uint32_t v = 0; v < receivers.shownCount(); ++v) {
-    if (counts(receivers.shares[receivers.start[v]].patch)) sum += areaOf(v);
+    sum += areaOf(v);
     receiver_area_sum_.push_back(sum);
   }
 }
@@ -139,8 +198,49 @@ double Residuals::areaOf(std::uint32_t receiver) const {
 
 bool Residuals::counts(std::uint32_t patch) const { return all_emit_ || !mesh_.emits(patch); }
 
-void Residuals::add(std::size_t places) {
+// Every other place by light, where there is any.
+Residuals::Choice Residuals::choose(const std::vector<double>& area_sum, const std::vector<double>& light_sum,
+                                    std::uint64_t number, std::uint64_t seed) {
+  if (light_sum.back() <= 0) return {chooseBy(area_sum, evenly(number, seed)), 1};
+  const double u = evenly(number / 2, seed + number % 2);
+  const std::uint32_t k = chooseBy(number % 2 == 0 ? area_sum : light_sum, u);
+  const auto share = [k](const std::vector<double>& sum) {
+    return (sum[k] - (k > 0 ? sum[k - 1] : 0)) / sum.back();
+  };
+  return {k, 2 / (1 + share(light_sum) / share(area_sum))};
+}
+
+// Reflected light over each triangle and at each receiver, where places may lie.
+void Residuals::findLight(const std::vector<glm::dvec3>& shown) {
+  triangle_light_sum_.clear();
+  receiver_light_sum_.clear();
+  const auto own = [](const std::vector<double>& sum, std::size_t k) {
+    return sum[k] - (k > 0 ? sum[k - 1] : 0);
+  };
+  const auto lightOf = [](const glm::dvec3& rho, const glm::dvec3& h) {
+    const glm::dvec3 b = rho * h;
+    const double sum = b.x + b.y + b.z;
+    return std::isfinite(sum * sum) ? sum * sum : 0.0;
+  };
+  const MeshField h = makeField(mesh_, receivers_, shown);
+  double sum = 0;
+  for (std::size_t t = 0; t < triangle_area_sum_.size(); ++t) {
+    const std::uint32_t* corner = &mesh_.triangle_vertices[3 * t];
+    const glm::dvec3 mean = (glm::dvec3(h.vertices[corner[0]]) + glm::dvec3(h.vertices[corner[1]]) +
+                             glm::dvec3(h.vertices[corner[2]])) /
+                            3.0;
+    const Side& side = mesh_.sides[mesh_.element_side[mesh_.triangle_element[t]]];
+    triangle_light_sum_.push_back(sum += own(triangle_area_sum_, t) * lightOf(side.reflectance, mean));
+  }
+  sum = 0;
+  for (std::uint32_t v = 0; v < receiver_area_sum_.size(); ++v)
+    receiver_light_sum_.push_back(sum += own(receiver_area_sum_, v) *
+                                         lightOf(receivers_.reflectance[v], receivers_.shown(v, shown)));
+}
+
+void Residuals::add(std::size_t places, const std::vector<glm::dvec3>& shown) {
   if (triangle_area_sum_.empty() || triangle_area_sum_.back() <= 0 || receiver_area_sum_.back() <= 0) return;
+  findLight(shown);
   for (std::size_t k = 0; k < places; ++k) {
     const std::uint64_t number = points_.size();
     addPoint(number);
@@ -151,7 +251,9 @@ void Residuals::add(std::size_t places) {
 void Residuals::addPoint(std::uint64_t number) {
   const std::uint64_t bits = mixBits(seed_ + 4 * number);
   Place place;
-  place.triangle = chooseBy(triangle_area_sum_, evenly(number, seed_));
+  const Choice choice = choose(triangle_area_sum_, triangle_light_sum_, number, seed_);
+  place.triangle = choice.index;
+  place.weight = choice.weight;
   place.weights = barycentric(unitInterval(mixBits(bits)), unitInterval(mixBits(bits + 1)));
   const std::uint32_t element = mesh_.triangle_element[place.triangle];
   place.patch = mesh_.element_patch[element];
@@ -168,7 +270,9 @@ void Residuals::addPoint(std::uint64_t number) {
 void Residuals::addReceiver(std::uint64_t number) {
   const std::uint64_t bits = mixBits(~seed_ + 4 * number);
   Place place;
-  place.receiver = chooseBy(receiver_area_sum_, evenly(number, ~seed_));
+  const Choice choice = choose(receiver_area_sum_, receiver_light_sum_, number, ~seed_);
+  place.receiver = choice.index;
+  place.weight = choice.weight;
   place.patch = receivers_.shares[receivers_.start[place.receiver]].patch;
   for (std::uint64_t k = 0; k < 2; ++k) {
     if (receivers_.kind == ReceiverKind::kVertices) {
@@ -204,67 +308,98 @@ void Residuals::addReceiver(std::uint64_t number) {
   elements_.push_back(std::move(place));
 }
 
-// What the sky, the source behind the patches, has shot.
-glm::dvec3 Residuals::skyOf(const RadiosityState& state) const {
-  return state.patchCount() > mesh_.patch_count ? state.shot()[mesh_.patch_count] : glm::dvec3(0.0);
+// H of a gather: what lights send of their emission, and what elements and the sky send besides.
+glm::dvec3 Residuals::irradianceOf(const Gather& gather, const Sent& sent) {
+  glm::dvec3 sum(0.0);
+  for (const std::uint32_t e : gather.rays) {
+    if (e == kToSky) {
+      sum += sent.sky;
+    } else if (e != kNone) {
+      sum += sent.light[e];
+    }
+  }
+  sum /= static_cast<double>(gather.rays.size());
+  for (const Gather::Light& light : gather.lights)
+    sum += static_cast<double>(light.weight) * sent.emission[light.patch];
+  return sum;
 }
 
-// Light that elements send, besides emission: rho H as it is known on them, without what is unshot of it.
+// Emission and sky as they are sent: all of them, or what has been shot.
+void Residuals::setSources(const RadiosityState& state, bool with_unshot, Sent& sent) const {
+  sent.emission = state.emission();
+  if (!with_unshot)
+    for (std::uint32_t q = 0; q < mesh_.patch_count; ++q) sent.emission[q] -= state.emissionLeft(q);
+  // The source behind the patches.
+  if (state.patchCount() > mesh_.patch_count)
+    sent.sky = with_unshot ? state.emission()[mesh_.patch_count] : state.shot()[mesh_.patch_count];
+}
+
+// Light that elements send, besides emission: rho H as it is known on them, with what is unshot of it or
+// without.
 std::vector<Residuals::Residual> Residuals::pointResiduals(const RadiosityState& state,
-                                                           const std::vector<glm::dvec3>& shown_field) const {
+                                                           const std::vector<glm::dvec3>& shown_field,
+                                                           bool with_unshot) const {
   const MeshField h = makeField(mesh_, receivers_, shown_field);
-  std::vector<glm::dvec3> light(mesh_.element_count);
-  for (std::uint32_t e = 0; e < light.size(); ++e) {
+  Sent sent;
+  setSources(state, with_unshot, sent);
+  sent.light.resize(mesh_.element_count);
+  for (std::uint32_t e = 0; e < sent.light.size(); ++e) {
     const std::uint32_t q = mesh_.element_patch[e];
-    light[e] =
-        state.reflectance()[q] * glm::dvec3(h.elements[e]) - (state.unshot()[q] - state.emissionLeft(q));
+    sent.light[e] = state.reflectance()[q] * glm::dvec3(h.elements[e]);
+    if (!with_unshot) sent.light[e] -= state.unshot()[q] - state.emissionLeft(q);
   }
-  const glm::dvec3 sky = skyOf(state);
   std::vector<Residual> out;
   for (const Place& place : points_) {
     glm::dvec3 shown(0.0);
     for (int k = 0; k < 3; ++k)
       shown += place.weights[k] * glm::dvec3(h.vertices[mesh_.triangle_vertices[3 * place.triangle + k]]);
-    const glm::dvec3& rho = state.reflectance()[place.patch];
-    out.push_back({place.patch,
-                   {rho * (irradianceOf(place.looks[0], state, light, sky) - shown),
-                    rho * (irradianceOf(place.looks[1], state, light, sky) - shown)},
-                   rho * shown});
+    out.push_back(residualOf(place, state.reflectance()[place.patch], sent, shown));
   }
   return out;
 }
 
 // The same of patches as the solver has them.
 std::vector<Residuals::Residual> Residuals::receiverResiduals(const RadiosityState& state) const {
-  std::vector<glm::dvec3> light(mesh_.element_count);
-  for (std::uint32_t e = 0; e < light.size(); ++e) {
+  Sent sent;
+  setSources(state, false, sent);
+  sent.light.resize(mesh_.element_count);
+  for (std::uint32_t e = 0; e < sent.light.size(); ++e) {
     const std::uint32_t q = mesh_.element_patch[e];
-    light[e] = state.shot()[q] - (state.emission()[q] - state.emissionLeft(q));
+    sent.light[e] = state.shot()[q] - (state.emission()[q] - state.emissionLeft(q));
   }
-  const glm::dvec3 sky = skyOf(state);
   std::vector<Residual> out;
-  for (const Place& place : elements_) {
-    const glm::dvec3 h = receivers_.shown(place.receiver, state.irradiance());
-    const glm::dvec3& rho = state.reflectance()[place.patch];
-    out.push_back({place.patch,
-                   {rho * (irradianceOf(place.looks[0], state, light, sky) - h),
-                    rho * (irradianceOf(place.looks[1], state, light, sky) - h)},
-                   rho * h});
-  }
+  for (const Place& place : elements_)
+    out.push_back(residualOf(place, state.reflectance()[place.patch], sent,
+                             receivers_.shown(place.receiver, state.irradiance())));
   return out;
 }
 
+Residuals::Residual Residuals::residualOf(const Place& place, const glm::dvec3& rho, const Sent& sent,
+                                          const glm::dvec3& shown) const {
+  return {place.patch,
+          {rho * (irradianceOf(place.looks[0], sent) - shown),
+           rho * (irradianceOf(place.looks[1], sent) - shown)},
+          rho * shown,
+          place.weight,
+          counts(place.patch)};
+}
+
 ErrorEstimates Residuals::estimate(const RadiosityState& state, const PatchMatrix& matrix,
-                                   const std::vector<glm::dvec3>& shown) const {
+                                   const std::vector<glm::dvec3>& shown, bool with_total) const {
   ErrorEstimates out;
   if (points_.empty() || elements_.empty()) return out;
-  const Ratio both = squaredError(pointResiduals(state, shown), triangle_area_sum_.back(), state, matrix);
-  const Ratio factors = squaredError(receiverResiduals(state), receiver_area_sum_.back(), state, matrix);
+  const auto squared = [&](const std::vector<Place>& places, const std::vector<Residual>& residuals) {
+    return squaredError(places, residuals, mesh_, state, matrix);
+  };
+  const Ratio both = squared(points_, pointResiduals(state, shown, false));
+  const Ratio factors = squared(elements_, receiverResiduals(state));
   out.both = estimateOf(both, points_.size());
   out.form_factor = estimateOf(factors, elements_.size());
   out.discretisation = estimateOf(
       {std::max(both.value, 0.0) - std::max(factors.value, 0.0), std::hypot(both.error, factors.error)},
       points_.size());
+  if (with_total)
+    out.total = estimateOf(squared(points_, pointResiduals(state, shown, true)), points_.size());
   return out;
 }
 
@@ -272,7 +407,7 @@ std::vector<double> Residuals::patchResiduals(const RadiosityState& state,
                                               const std::vector<glm::dvec3>& shown) const {
   std::vector<double> sum(mesh_.patch_count, 0), count(mesh_.patch_count, 0), side_sum(mesh_.sides.size(), 0),
       side_count(mesh_.sides.size(), 0);
-  for (const Residual& r : pointResiduals(state, shown)) {
+  for (const Residual& r : pointResiduals(state, shown, false)) {
     const double square = glm::dot(r.of_look[0], r.of_look[1]) / 3;
     sum[r.patch] += square;
     ++count[r.patch];

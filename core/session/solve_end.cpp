@@ -12,8 +12,7 @@ constexpr double kSolverShare = 0.4;
 // Of that share: what may be unshot where there is no bound yet. Shots alone would ask for the columns that a
 // bound needs long after they have nothing left to do.
 constexpr double kLittleUnshot = 0.25;
-// An estimate counts from so many places on; what asks for a word is so many times the error asked for.
-constexpr std::size_t kEnoughPlaces = 256;
+// What asks for a word is surely above the error asked for, and by estimate so many times as large.
 constexpr double kFarAbove = 3;
 
 }  // namespace
@@ -119,9 +118,9 @@ void Solve::Impl::noteMissingRoom() {
 
 // Once, where the mesh was to be as fine as the error asks for and is far from it.
 void Solve::Impl::noteMissedError() {
-  const ErrorEstimate& estimate = budget->estimates().both;
+  const ErrorEstimate& estimate = budget->estimates().total;
   if (error_noted || !mesh->base || progress_state != SolveState::kConverged ||
-      estimate.places < kEnoughPlaces || estimate.value < kFarAbove * options.error)
+      estimate.low <= options.error || estimate.value < kFarAbove * options.error)
     return;
   error_noted = true;
   const auto percent = [](double x) { return figureText(100 * x) + " %"; };

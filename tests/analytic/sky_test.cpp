@@ -138,7 +138,7 @@ TEST(Sky, AndReflectionAgreeWithThePathTracedReference) {
     const double error = reflectedError(truth, answerProbes(solve->snapshot(), probesOf(truth), false));
     measured("nRMSE", error);
     EXPECT_LT(error, 0.03);
-    const ErrorEstimate estimate = solve->estimate(512).both;
+    const ErrorEstimate estimate = solve->estimate(512).total;
     measured("estimated", estimate.value);
     measured("at most", estimate.high);
     EXPECT_LT(estimate.value, 0.03);

@@ -104,8 +104,8 @@ TEST(Solve, SaysWhereTheErrorAskedForIsMissed) {
   const auto solve = [&](const std::string& lamp) {
     folder.write("room.mtl", testing_support::kMaterials);
     folder.write("room.obj", testing_support::roomObj("white", "white") +
-                                 "usemtl light\nv 0.42 0.99 0.42\nv 0.63 0.99 0.42\nv 0.63 0.99 0.61\n"
-                                 "v 0.42 0.99 0.61\n" +
+                                 "usemtl light\nv 0.42 0.9999 0.42\nv 0.63 0.9999 0.42\nv 0.63 0.9999 0.61\n"
+                                 "v 0.42 0.9999 0.61\n" +
                                  lamp);
     return runProgram(folder, {"solve", "room.obj", "--emit", "front"});
   };
