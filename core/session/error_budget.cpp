@@ -129,6 +129,10 @@ const ErrorEstimates& ErrorBudget::estimate(std::size_t more_places, const std::
   return estimates_;
 }
 
+void ErrorBudget::forgetPlaces() {
+  if (residuals_) residuals_->forgetPlaces();
+}
+
 std::vector<double> ErrorBudget::patchResiduals(const std::vector<glm::dvec3>& shown) const {
   return residuals_ && residuals_->places() > 0 ? residuals_->patchResiduals(state_, shown)
                                                 : std::vector<double>();

@@ -33,6 +33,8 @@ class ErrorBudget {
   /// `shown`: H as it is shown, one per receiver [W/m^2].
   const ErrorEstimates& estimate(std::size_t more_places, const std::vector<glm::dvec3>& shown);
   const ErrorEstimates& estimates() const { return estimates_; }
+  /// The next estimate is from places of its own alone, chosen by the light as it is then.
+  void forgetPlaces();
   std::size_t places() const { return residuals_ ? residuals_->places() : 0; }
   /// See Residuals::patchResiduals; empty before the first estimate.
   std::vector<double> patchResiduals(const std::vector<glm::dvec3>& shown) const;

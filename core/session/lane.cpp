@@ -152,6 +152,8 @@ bool Lane::hasBounceWork() const {
 
 bool Lane::spareWork(double interval) {
   if (hasBounceWork()) return workOutBounces(interval);
+  // When those in passing were chosen is a matter of time: an estimate at rest is the same each time.
+  if (std::exchange(places_in_passing_, false)) solve_->forgetPlaces();
   estimateFrom(std::min(kPlacesAtOnce, kPlacesAtRest - std::min(kPlacesAtRest, solve_->places())));
   return true;
 }
@@ -172,6 +174,7 @@ void Lane::estimateInPassing() {
   if (!running() || facts_->elements > kMostElementsInPassing) return;
   if (error_seconds_ + last_estimate_seconds_ > kErrorShare * solve_->measures().seconds) return;
   const double began = wallSeconds();
+  places_in_passing_ = true;
   estimateFrom(solve_->places() < kPlacesInPassing ? kPlacesInPassing / 8 : 0);
   last_estimate_seconds_ = wallSeconds() - began;
   error_seconds_ += last_estimate_seconds_;

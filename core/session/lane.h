@@ -78,6 +78,7 @@ class Lane {
   PublishPace pace_;
   bool stale_ = false;            // the solve has gone on since the snapshot
   bool estimates_stale_ = false;  // and since the estimates
+  bool places_in_passing_ = false;
   double error_seconds_ = 0, last_estimate_seconds_ = 0;
   bool no_more_places_ = false;                              // the scene has none, or estimating failed
   bool complete_bounces_ = false, no_more_bounces_ = false;  // asked for; working them out failed

@@ -238,6 +238,11 @@ void Residuals::findLight(const std::vector<glm::dvec3>& shown) {
                                          lightOf(receivers_.reflectance[v], receivers_.shown(v, shown)));
 }
 
+void Residuals::forgetPlaces() {
+  points_.clear();
+  elements_.clear();
+}
+
 void Residuals::add(std::size_t places, const std::vector<glm::dvec3>& shown) {
   if (triangle_area_sum_.empty() || triangle_area_sum_.back() <= 0 || receiver_area_sum_.back() <= 0) return;
   findLight(shown);

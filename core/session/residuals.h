@@ -50,6 +50,8 @@ class Residuals {
   /// emit have places too, for what goes on from there.
   void add(std::size_t places, const std::vector<glm::dvec3>& shown);
   std::size_t places() const { return points_.size(); }
+  /// Those that follow are chosen by the light as it is then.
+  void forgetPlaces();
 
   /// Of the present state. `shown`: H as it is shown, one per receiver [W/m^2]. `with_total`: where the
   /// matrix is whole. Costs some hundred products with the matrix.

@@ -321,6 +321,8 @@ bool Solve::workOutBounces(bool compute) {
 
 std::size_t Solve::places() const { return impl_->budget->places(); }
 
+void Solve::forgetPlaces() { impl_->budget->forgetPlaces(); }
+
 double Solve::errorSeconds() const { return impl_->budget->seconds(); }
 
 const ErrorBounds& Solve::bounds() const { return impl_->budget->bounds(); }

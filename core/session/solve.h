@@ -108,6 +108,8 @@ class Solve {
   const ErrorEstimates& estimate(std::size_t more_places);
   const ErrorEstimates& estimates() const;
   std::size_t places() const;  ///< that estimates() are from
+  /// The next estimate is from places of its own alone, chosen by the light as it is then.
+  void forgetPlaces();
   const ErrorBounds& bounds() const;
   /// Goes on working out the light by bounces (Snapshot::bounce_light), from form factors at hand and for
   /// some milliseconds; those that are missing are computed first where `compute` allows it, one a call. The
