@@ -25,6 +25,8 @@ class PatchPolygons {
   double quickFactor(std::uint32_t q, const glm::dvec3& point, const glm::dvec3& normal,
                      std::vector<glm::dvec3>& scratch) const;
   std::uint32_t surface(std::uint32_t q) const { return patches_[q].surface; }
+  /// Its pieces, or itself where it is a rectangle.
+  std::span<const FactorPolygon> parts(std::uint32_t q) const { return patches_[q].parts; }
   /// `n` (a power of two) points of the patch that stand for equal parts of its area, spread so that they
   /// fall into n different places along each side of a rectangle, none of them on its border; for one, its
   /// centre.

@@ -5,13 +5,16 @@
 // mesh hides what more would show; each weighs by its own kernel, and those that end below the point's
 // horizon are left out. Patches with a good share of the scene's emission are looked at from end to end:
 // where sixteen rays agree the exact factor counts whole or not at all, else it is the penumbra, with 64
-// rays.
+// rays. Of an emitter that is wider than it is away, most samples lie where it hardly counts: where one is
+// hidden it is taken apart until each part is small as seen from the point or brings little, and each part
+// has a ray and an exact factor of its own.
 //
 // Known error: occluders that slip between the rays; a shadow's edge lies where the sample of a patch says,
 // a radius of the patch beside the truth at most.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <span>
 
@@ -20,6 +23,7 @@
 #include "formfactor/emitter_share.h"
 #include "formfactor/methods.h"
 #include "formfactor/pointwise.h"
+#include "formfactor/polygon_factor.h"
 #include "formfactor/shadow_rays.h"
 #include "mesh/mesh_rays.h"
 
@@ -28,6 +32,11 @@ namespace {
 
 // Radius of a patch over its distance, above which it takes 4 or 16 rays.
 constexpr double kWide = 0.4, kVeryWide = 1.2;
+// An emitter is taken apart from where its radius is so many times the distance to its plane, and it is
+// nearer than so many radii. Parts are as wide, or bring such a share of it, and are so many at most.
+constexpr double kFlat = 1, kNear = 2;
+constexpr double kPartWidth = 0.12, kPartShare = 0.001;
+constexpr int kMostHalvings = 16;
 // The levels of samples: 1, 4, 16, 64.
 constexpr std::size_t kLevels = 4;
 // How far from the corner towards the middle a ray goes that looks for a corner.
@@ -48,9 +57,13 @@ class ShadowRays final : public Visibility {
 
   double seen(const ReceiverView& from, std::uint32_t q) override {
     const glm::dvec3 eye = rays_.rays().lifted(from.position, from.normal);
+    const glm::dvec3 to = polygons_->middle(q) - from.position;
+    const double distance = glm::length(to), radius = polygons_->radius(q);
+    if (mesh_.emits(q) && distance < kNear * radius &&
+        -glm::dot(to, mesh_.sides[mesh_.patch_side[q]].normal) < radius / kFlat)
+      return seenInParts(from, eye, q);
     if (large_[q]) return emitterSeen(from, eye, q);
-    const double distance = glm::length(polygons_->middle(q) - from.position);
-    const double width = polygons_->radius(q) / std::max(distance, 1e-300);
+    const double width = radius / std::max(distance, 1e-300);
     return share(from, eye, q, width > kVeryWide ? 2 : width > kWide ? 1 : 0);
   }
 
@@ -115,6 +128,56 @@ class ShadowRays final : public Visibility {
     return few == 0 || few == 1 ? few : share(from, eye, q, kLevels - 1);
   }
 
+  double seenInParts(const ReceiverView& from, const glm::dvec3& eye, std::uint32_t q) {
+    const double whole = polygons_->factor(q, from.position, from.normal, scratch_);
+    if (whole <= 0) return 0;
+    if (share(from, eye, q, 2) == 1) return 1;
+    double visible = 0;
+    for (const FactorPolygon& part : polygons_->parts(q)) {
+      const std::vector<glm::dvec3>& ring = part.corners();
+      if (ring.size() == 4) {
+        visible += visiblePart(from, eye, q, {ring[0], ring[1], ring[2], ring[3]}, kPartShare * whole, 0);
+        continue;
+      }
+      for (std::size_t k = 2; k < ring.size(); ++k)
+        visible += visiblePart(from, eye, q, {ring[0], ring[k - 1], ring[k], ring[k]}, kPartShare * whole, 0);
+    }
+    return std::clamp(visible / whole, 0.0, 1.0);
+  }
+
+  // The factor of what is visible of a quadrilateral of patch q; a triangle has its last corner twice.
+  double visiblePart(const ReceiverView& from, const glm::dvec3& eye, std::uint32_t q,
+                     const std::array<glm::dvec3, 4>& ring, double negligible, int halvings) {
+    const double factor = std::max(pointToPolygonFactor(from.position, from.normal, ring, scratch_), 0.0);
+    if (factor == 0) return 0;
+    const glm::dvec3 centre = (ring[0] + ring[1] + ring[2] + ring[3]) / 4.0;
+    double radius = 0;
+    for (const glm::dvec3& corner : ring) radius = std::max(radius, glm::length(corner - centre));
+    const bool wide = radius > kPartWidth * glm::length(centre - from.position);
+    if (wide && factor > negligible && halvings < kMostHalvings) {
+      // Halved across the longer pair of sides.
+      const bool along = glm::length(ring[1] - ring[0]) + glm::length(ring[2] - ring[3]) >
+                         glm::length(ring[3] - ring[0]) + glm::length(ring[2] - ring[1]);
+      const std::array<glm::dvec3, 4> turned =
+          along ? ring : std::array<glm::dvec3, 4>{ring[1], ring[2], ring[3], ring[0]};
+      const glm::dvec3 a = (turned[0] + turned[1]) / 2.0, b = (turned[2] + turned[3]) / 2.0;
+      return visiblePart(from, eye, q, {turned[0], a, b, turned[3]}, negligible, halvings + 1) +
+             visiblePart(from, eye, q, {a, turned[1], turned[2], b}, negligible, halvings + 1);
+    }
+    // Towards the highest corner where the centre lies below the horizon.
+    glm::dvec3 at = centre;
+    const auto height = [&](const glm::dvec3& p) { return glm::dot(p - from.position, from.normal); };
+    if (height(at) <= 0) {
+      const glm::dvec3& top = *std::max_element(
+          ring.begin(), ring.end(), [&](const auto& x, const auto& y) { return height(x) < height(y); });
+      if (height(top) <= kTold * rays_.rays().lift()) return 0;
+      at = glm::mix(centre, top, (height(top) / 2 - height(centre)) / (height(top) - height(centre)));
+    }
+    return rays_.rays().occluded(eye, rays_.rays().lifted(at, mesh_.sides[mesh_.patch_side[q]].normal))
+               ? 0
+               : factor;
+  }
+
   const std::vector<glm::dvec3>& samplesOf(std::uint32_t q, std::size_t level) {
     std::vector<glm::dvec3>& out = samples_[q][level];
     if (out.empty()) polygons_->spread(q, 1u << (2 * level), out);
@@ -127,6 +190,7 @@ class ShadowRays final : public Visibility {
   std::uint64_t seed_;
   std::vector<char> large_;  // one per patch: it emits so much that the edges of its shadows show
   std::vector<std::array<std::vector<glm::dvec3>, kLevels>> samples_;
+  std::vector<glm::dvec3> scratch_;
 };
 
 }  // namespace

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/cosine_direction.h"
 #include "base/random.h"
+#include "mesh/element_points.h"
 #include "mesh/mesh_rays.h"
 
 namespace unshot {
@@ -25,17 +27,14 @@ class SkyLooks {
     strata_ = std::clamp(static_cast<int>(std::sqrt(kRays / std::max(1u, range.count))), kFewestStrata,
                          kMostStrata);
     open_.resize(static_cast<std::size_t>(strata_ * strata_));
-    if (receivers.kind == ReceiverKind::kVertices) return;
-    triangles_of_.resize(mesh.element_count);
-    for (std::uint32_t t = 0; t < mesh.triangle_element.size(); ++t)
-      triangles_of_[mesh.triangle_element[t]].push_back(t);
+    if (receivers.kind == ReceiverKind::kElements) points_.emplace(mesh);
   }
 
   double seenBy(std::uint32_t v) {
     if (receivers_.kind == ReceiverKind::kElements) {
-      if (triangles_of_[v].empty()) return 0;
+      if (points_->empty(v)) return 0;
       const glm::dvec3& normal = mesh_.sides[mesh_.element_side[v]].normal;
-      return share(normal, [&] { return pointOf(v); });
+      return share(normal, [&] { return points_->at(v, [&] { return draw(); }); });
     }
     double sum = 0;
     for (const ReceiverView& view : receivers_.viewsOf(v))
@@ -45,24 +44,6 @@ class SkyLooks {
 
  private:
   double draw() { return unitInterval(state_ = mixBits(state_)); }
-
-  glm::dvec3 pointOf(std::uint32_t element) {
-    const std::vector<std::uint32_t>& triangles = triangles_of_[element];
-    glm::dvec3 p[3]{};
-    double sum = 0;
-    // One of them by area: each takes the place of those before with its share of all so far.
-    for (const std::uint32_t t : triangles) {
-      glm::dvec3 corner[3];
-      for (int k = 0; k < 3; ++k)
-        corner[k] = glm::dvec3(mesh_.vertices[mesh_.triangle_vertices[3 * t + k]].position);
-      const double area = glm::length(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
-      sum += area;
-      if (t != triangles[0] && draw() * sum >= area) continue;
-      std::copy(corner, corner + 3, p);
-    }
-    const double root = std::sqrt(draw()), v = draw();
-    return (1 - root) * p[0] + root * (1 - v) * p[1] + root * v * p[2];
-  }
 
   template <class Position>
   double share(const glm::dvec3& normal, Position&& position) {
@@ -101,7 +82,7 @@ class SkyLooks {
   std::uint64_t state_;
   int strata_ = kFewestStrata;
   std::vector<char> open_;  // a stratum's ray meets nothing; by distance from the normal, then around it
-  std::vector<std::vector<std::uint32_t>> triangles_of_;  // display triangles of each element
+  std::optional<ElementPoints> points_;  // where receivers are elements
 };
 
 class WithSky final : public FormFactorMethod {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "base/error.h"
@@ -79,10 +80,19 @@ std::uint32_t cellsAlong(double extent, double size, bool paired) {
                          : static_cast<std::uint32_t>(n);
 }
 
-double elementsOf(const Surface& s, double size, bool paired) {
-  const double cells =
-      static_cast<double>(cellsAlong(s.extent.x, size, paired)) * cellsAlong(s.extent.y, size, paired);
-  return litSides(s) * std::max(1.0, cells * s.area / (s.extent.x * s.extent.y));
+// Where paired: of a surface that reflects nothing, on which light need not be known; what it may emit is
+// even.
+constexpr std::uint32_t kMostBlackCells = 16;
+
+glm::uvec2 cellsOf(const Mesh& mesh, const Surface& s, double size, bool paired) {
+  const glm::uvec2 cells(cellsAlong(s.extent.x, size, paired), cellsAlong(s.extent.y, size, paired));
+  const bool black = mesh.materials[s.material].reflectance == glm::dvec3(0.0);
+  return paired && black ? glm::min(cells, glm::uvec2(kMostBlackCells)) : cells;
+}
+
+double elementsOf(const Mesh& mesh, const Surface& s, double size, bool paired) {
+  const glm::dvec2 cells(cellsOf(mesh, s, size, paired));
+  return litSides(s) * std::max(1.0, cells.x * cells.y * s.area / (s.extent.x * s.extent.y));
 }
 
 using Contacts = std::vector<std::vector<ContactSegment>>;
@@ -96,7 +106,8 @@ void gridAll(Mesh& mesh, const std::vector<double>& sizes, bool paired, const Co
   mesh.patch_shapes.clear();
   mesh.shapes.clear();
   double elements = 0;
-  for (std::size_t s = 0; s < sizes.size(); ++s) elements += elementsOf(mesh.surfaces[s], sizes[s], paired);
+  for (std::size_t s = 0; s < sizes.size(); ++s)
+    elements += elementsOf(mesh, mesh.surfaces[s], sizes[s], paired);
   if (elements > static_cast<double>(kMostElements)) {
     throw Error(ErrorKind::kUsage,
                 "the mesh would have about " + std::to_string(static_cast<std::uint64_t>(elements)) +
@@ -108,9 +119,8 @@ void gridAll(Mesh& mesh, const std::vector<double>& sizes, bool paired, const Co
     Surface& surface = mesh.surfaces[s];
     cancel.check();
     if (litSides(surface) == 0) continue;
-    gridSurface(mesh, s, cellsAlong(surface.extent.x, sizes[s], paired),
-                cellsAlong(surface.extent.y, sizes[s], paired), patch_cells, paired, contacts[s], tolerance,
-                cancel);
+    const glm::uvec2 cells = cellsOf(mesh, surface, sizes[s], paired);
+    gridSurface(mesh, s, cells.x, cells.y, patch_cells, paired, contacts[s], tolerance, cancel);
   }
 }
 
@@ -126,7 +136,7 @@ std::vector<double> sizesFor(const Mesh& mesh, double wanted, bool paired, const
   const auto estimate = [&](double size) {
     cancel.check();
     double sum = 0;
-    for (const Surface& s : mesh.surfaces) sum += elementsOf(s, size, paired);
+    for (const Surface& s : mesh.surfaces) sum += elementsOf(mesh, s, size, paired);
     return sum;
   };
   double coarse = 2 * glm::length(mesh.bounds_max - mesh.bounds_min), fine = coarse;
@@ -139,7 +149,7 @@ std::vector<double> sizesFor(const Mesh& mesh, double wanted, bool paired, const
   double sum = estimate(coarse);
   for (std::size_t s = 0; s < sizes.size(); ++s) {
     const double step =
-        elementsOf(mesh.surfaces[s], fine, paired) - elementsOf(mesh.surfaces[s], coarse, paired);
+        elementsOf(mesh, mesh.surfaces[s], fine, paired) - elementsOf(mesh, mesh.surfaces[s], coarse, paired);
     if (std::abs(sum + step - wanted) > std::abs(sum - wanted)) continue;
     sizes[s] = fine;
     sum += step;

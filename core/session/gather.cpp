@@ -19,6 +19,8 @@ constexpr std::size_t kMostEmitters = 16;
 // Shadow rays to an emitter, a grid: where there are few emitters, and where there are many.
 constexpr int kShadowStrata = 5, kFewShadowStrata = 2;
 constexpr std::size_t kFewEmitters = 4;
+// Emitters are wide from nearer than so many radii, and nearer to their plane than one.
+constexpr double kNear = 3;
 
 struct Draws {
   std::uint64_t state;
@@ -49,26 +51,29 @@ Gather Gatherer::look(const glm::dvec3& position, const glm::dvec3& normal, std:
   out.rays.reserve(kStrata * kStrata);
   const glm::dvec3 eye = rays_.rays().lifted(position, normal);
   Draws draws{mixBits(stream)};
+  std::vector<std::uint32_t> met;  // triangles, one per ray
+  met.reserve(kStrata * kStrata);
   for (int i = 0; i < kStrata; ++i) {
     for (int j = 0; j < kStrata; ++j) {
       const double u = (i + draws.next()) / kStrata, v = (j + draws.next()) / kStrata;
       const glm::dvec3 direction = cosineDirection(normal, u, v);
       const auto hit = rays_.intersect(eye, direction);
+      met.push_back(hit ? hit->at.triangle : kNone);
       out.rays.push_back(!hit                 ? kToSky
                          : hit->side == kNone ? kNone
                                               : elementOf(hit->surface, hit->side, hit->at.position));
     }
   }
-  lookAtLights(position, normal, mixBits(stream ^ 0x5bd1e995u), out);
+  lookAtLights(position, normal, met, mixBits(stream ^ 0x5bd1e995u), out);
   return out;
 }
 
-void Gatherer::lookAtLights(const glm::dvec3& position, const glm::dvec3& normal, std::uint64_t stream,
-                            Gather& out) const {
+void Gatherer::lookAtLights(const glm::dvec3& position, const glm::dvec3& normal,
+                            const std::vector<std::uint32_t>& met, std::uint64_t stream, Gather& out) const {
   if (emitters_.size() <= kMostEmitters) {
     const int strata = emitters_.size() <= kFewEmitters ? kShadowStrata : kFewShadowStrata;
     for (std::size_t k = 0; k < emitters_.size(); ++k)
-      lookAtLight(emitters_[k], position, normal, strata, 1, mixBits(stream + k), out);
+      lookAtLight(emitters_[k], position, normal, met, strata, 1, mixBits(stream + k), out);
     return;
   }
   // By power over distance squared, in strata of the sum.
@@ -85,13 +90,14 @@ void Gatherer::lookAtLights(const glm::dvec3& position, const glm::dvec3& normal
     const auto k = std::min<std::size_t>(
         static_cast<std::size_t>(std::upper_bound(sum.begin(), sum.end(), at) - sum.begin()), sum.size() - 1);
     const double probability = (sum[k] - (k > 0 ? sum[k - 1] : 0)) / total;
-    lookAtLight(emitters_[k], position, normal, kFewShadowStrata, 1 / (kMostEmitters * probability),
+    lookAtLight(emitters_[k], position, normal, met, kFewShadowStrata, 1 / (kMostEmitters * probability),
                 mixBits(stream + i), out);
   }
 }
 
 void Gatherer::lookAtLight(const Emitter& emitter, const glm::dvec3& position, const glm::dvec3& normal,
-                           int strata, double weight, std::uint64_t stream, Gather& out) const {
+                           const std::vector<std::uint32_t>& met, int strata, double weight,
+                           std::uint64_t stream, Gather& out) const {
   const Side& side = mesh_.sides[emitter.side];
   const SceneRays::Triangle& t = rays_.rays().triangle(emitter.triangle);
   if (glm::dot(position - t.corners[0], side.normal) <= rays_.rays().lift()) return;
@@ -107,6 +113,7 @@ void Gatherer::lookAtLight(const Emitter& emitter, const glm::dvec3& position, c
   };
   std::vector<Sample> visible;
   double kernels = 0;
+  bool hidden = false;
   Draws draws{stream};
   for (int i = 0; i < strata; ++i) {
     for (int j = 0; j < strata; ++j) {
@@ -117,9 +124,24 @@ void Gatherer::lookAtLight(const Emitter& emitter, const glm::dvec3& position, c
       if (from_eye <= 0 || from_light <= 0) continue;  // below the horizon: not hidden, not there
       const double kernel = from_eye * from_light / (square * square);
       kernels += kernel;
-      if (rays_.rays().occluded(eye, rays_.rays().lifted(at, side.normal))) continue;
+      if (rays_.rays().occluded(eye, rays_.rays().lifted(at, side.normal))) {
+        hidden = true;
+        continue;
+      }
       visible.push_back({elementOf(side.surface, emitter.side, at), kernel});
     }
+  }
+  // Samples are spread over its area, which says little of one that is wider than it is away: where some are
+  // hidden, the rays that have met it say how much of it is seen.
+  const glm::dvec3 centre = (t.corners[0] + t.corners[1] + t.corners[2]) / 3.0;
+  const double radius = std::sqrt(t.area), away = std::abs(glm::dot(centre - position, side.normal));
+  if (hidden && away < radius && glm::length(centre - position) < kNear * radius) {
+    for (std::size_t k = 0; k < met.size(); ++k) {
+      if (met[k] == emitter.triangle && out.rays[k] != kNone && out.rays[k] != kToSky)
+        out.lights.push_back(
+            {mesh_.element_patch[out.rays[k]], static_cast<float>(weight / static_cast<double>(met.size()))});
+    }
+    return;
   }
   for (const Sample& s : visible) {
     if (s.element == kNone) continue;

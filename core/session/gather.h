@@ -25,7 +25,8 @@ struct Gather {
 };
 
 /// Looks around in a scene. Emitters are seen by their exact polygon factor times the share of it that shadow
-/// rays find visible, all else by cosine-distributed rays in strata.
+/// rays find visible, or by the rays that meet them where they are very wide and partly hidden, all else by
+/// cosine-distributed rays in strata.
 class Gatherer {
  public:
   explicit Gatherer(const Mesh& mesh);
@@ -39,10 +40,12 @@ class Gatherer {
     std::uint32_t side;
     double power;  // channels summed
   };
-  void lookAtLights(const glm::dvec3& position, const glm::dvec3& normal, std::uint64_t stream,
-                    Gather& out) const;
-  void lookAtLight(const Emitter& emitter, const glm::dvec3& position, const glm::dvec3& normal, int samples,
-                   double weight, std::uint64_t stream, Gather& out) const;
+  // `met`: the triangle that each ray of `out` has met.
+  void lookAtLights(const glm::dvec3& position, const glm::dvec3& normal,
+                    const std::vector<std::uint32_t>& met, std::uint64_t stream, Gather& out) const;
+  void lookAtLight(const Emitter& emitter, const glm::dvec3& position, const glm::dvec3& normal,
+                   const std::vector<std::uint32_t>& met, int samples, double weight, std::uint64_t stream,
+                   Gather& out) const;
   std::uint32_t elementOf(std::uint32_t surface, std::uint32_t side, const glm::dvec3& position) const;
 
   const Mesh& mesh_;

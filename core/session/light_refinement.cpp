@@ -47,15 +47,19 @@ class LightQuestion {
         light_(emitters, options.occlusion, options.seed),
         elements_(base.element_count) {
     if (looksFor(base.element_count) > kMostLooks) return;
+    // Over what reflects: on the rest light need not be known.
     glm::dvec3 sum(0.0);
+    double area = 0;
     for (std::uint32_t e = 0; e < base.element_count; ++e) {
       cancel.check();
       const Side& side = base.sides[base.element_side[e]];
+      if (side.reflectance == glm::dvec3(0.0)) continue;
       const Surface& surface = base.surfaces[side.surface];
       const ElementShape& shape = base.shapes[surface.elements.first + e - side.first_element];
+      area += shape.area;
       sum += shape.area * at(base.element_side[e], surface.chart(shape.centre));
     }
-    if (base.lit_area > 0) tolerance_ = kWorst * options.error * (sum.x + sum.y + sum.z) / base.lit_area;
+    if (area > 0) tolerance_ = kWorst * options.error * (sum.x + sum.y + sum.z) / area;
   }
 
   bool operator()(const CellPart& part) {
@@ -64,7 +68,8 @@ class LightQuestion {
     const Surface& surface = base_.surfaces[part.surface];
     bool split = false;
     for (const std::uint32_t side : surface.side)
-      split = split || (side != kNone && differs(part, surface, side));
+      split = split || (side != kNone && base_.sides[side].reflectance != glm::dvec3(0.0) &&
+                        differs(part, surface, side));
     if (split) elements_ += 3;
     full_ = static_cast<double>(elements_) > most() || looksFor(known_.size()) > kMostLooks;
     return split;

@@ -168,9 +168,9 @@ Ratio squaredError(const Places& places, const Residuals& residuals, const Mesh&
 
 Residuals::Residuals(const Mesh& mesh, const Receivers& receivers, std::uint64_t seed)
     : mesh_(mesh), receivers_(receivers), seed_(mixBits(seed ^ 0x7265736964756cull)), gatherer_(mesh) {
+  if (receivers.kind == ReceiverKind::kElements) element_points_.emplace(mesh);
   for (const Side& side : mesh.sides) all_emit_ = all_emit_ && side.emission != glm::dvec3(0.0);
   double sum = 0;
-  triangles_of_element_.resize(mesh.element_count);
   for (std::uint32_t t = 0; t < mesh.triangle_element.size(); ++t) {
     const std::uint32_t* corner = &mesh.triangle_vertices[3 * t];
     const glm::dvec3 p0(mesh.vertices[corner[0]].position);
@@ -178,7 +178,6 @@ Residuals::Residuals(const Mesh& mesh, const Receivers& receivers, std::uint64_t
                                          glm::dvec3(mesh.vertices[corner[2]].position) - p0);
     sum += glm::length(across) / 2;
     triangle_area_sum_.push_back(sum);
-    triangles_of_element_[mesh.triangle_element[t]].push_back(t);
   }
   sum = 0;
   for (std::uint32_t v = 0; v < receivers.shownCount(); ++v) {
@@ -290,25 +289,12 @@ void Residuals::addReceiver(std::uint64_t number) {
       continue;
     }
     // Each look from a place of its own in the element: its H is a mean.
-    const std::vector<std::uint32_t>& triangles = triangles_of_element_[place.receiver];
-    if (triangles.empty()) return;
-    double area = 0;
-    std::vector<double> sums;
-    for (const std::uint32_t t : triangles) {
-      const std::uint32_t* corner = &mesh_.triangle_vertices[3 * t];
-      const glm::dvec3 p0(mesh_.vertices[corner[0]].position);
-      area += glm::length(glm::cross(glm::dvec3(mesh_.vertices[corner[1]].position) - p0,
-                                     glm::dvec3(mesh_.vertices[corner[2]].position) - p0));
-      sums.push_back(area);
-    }
-    const std::uint64_t own = mixBits(bits + 10 * k);
-    const std::uint32_t t = triangles[chooseBy(sums, unitInterval(mixBits(own)))];
-    const glm::dvec3 weights = barycentric(unitInterval(mixBits(own + 1)), unitInterval(mixBits(own + 2)));
-    glm::dvec3 position(0.0);
-    for (int c = 0; c < 3; ++c)
-      position += weights[c] * glm::dvec3(mesh_.vertices[mesh_.triangle_vertices[3 * t + c]].position);
+    if (!element_points_ || element_points_->empty(place.receiver)) return;
+    std::uint64_t state = mixBits(bits + 10 * k);
+    const glm::dvec3 position =
+        element_points_->at(place.receiver, [&] { return unitInterval(state = mixBits(state)); });
     place.looks[k] =
-        gatherer_.look(position, mesh_.sides[mesh_.element_side[place.receiver]].normal, mixBits(own + 3));
+        gatherer_.look(position, mesh_.sides[mesh_.element_side[place.receiver]].normal, mixBits(state));
   }
   elements_.push_back(std::move(place));
 }

@@ -16,9 +16,11 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "formfactor/receivers.h"
+#include "mesh/element_points.h"
 #include "session/gather.h"
 #include "solver/patch_matrix.h"
 #include "solver/state.h"
@@ -109,7 +111,7 @@ class Residuals {
   Gatherer gatherer_;
   std::vector<double> triangle_area_sum_, receiver_area_sum_;
   std::vector<double> triangle_light_sum_, receiver_light_sum_;
-  std::vector<std::vector<std::uint32_t>> triangles_of_element_;
+  std::optional<ElementPoints> element_points_;  // where receivers are elements
   bool all_emit_ = true;
   std::vector<Place> points_, elements_;
 };
