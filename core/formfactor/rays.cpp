@@ -60,7 +60,8 @@ class ShadowRays final : public Visibility {
     const glm::dvec3 to = polygons_->middle(q) - from.position;
     const double distance = glm::length(to), radius = polygons_->radius(q);
     if (mesh_.emits(q) && distance < kNear * radius &&
-        -glm::dot(to, mesh_.sides[mesh_.patch_side[q]].normal) < radius / kFlat)
+        glm::dot(from.position - polygons_->parts(q)[0].centre(), mesh_.sides[mesh_.patch_side[q]].normal) <
+            radius / kFlat)
       return seenInParts(from, eye, q);
     if (large_[q]) return emitterSeen(from, eye, q);
     const double width = radius / std::max(distance, 1e-300);

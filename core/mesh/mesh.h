@@ -173,8 +173,8 @@ struct Mesh {
   std::vector<std::uint32_t> triangle_element;   ///< one per triangle
   SparseRows vertex_from_elements;               ///< interpolation: one row per vertex, weights sum to 1
 
-  /// The uniform mesh that this one refines (mesh/refine.h): surfaces, sides, patches and their numbers are
-  /// the same. Null where it is one itself.
+  /// The mesh that this one refines (mesh/refine.h): surfaces, sides, patches and their numbers are the same.
+  /// Null where there is none.
   std::shared_ptr<const Mesh> base;
   std::vector<std::uint32_t>
       element_from_base;        ///< the base's element that each is a part of; none without base

@@ -54,6 +54,7 @@ class Refiner {
     if (own_patches_) {
       surface.patches = {static_cast<std::uint32_t>(mesh_.patch_shapes.size()), 0};
       findNodes(old);
+      in_node_.clear();
     }
     const glm::dvec2 step = old.extent / glm::dvec2(old.nu, old.nv);
     std::vector<Part> parts;
@@ -82,6 +83,10 @@ class Refiner {
       const auto left = patch_.find({0, key.second});
       if (key.first > 0 && left != patch_.end())
         mesh_.patch_shapes[surface.patches.first + left->second].whole = false;
+    }
+    // All that is left of a patch may be a sliver in the cell beside its node.
+    for (std::uint32_t q = 0; own_patches_ && q < surface.patches.count; ++q) {
+      if (!in_node_[q]) mesh_.patch_shapes[surface.patches.first + q] = {old.root, false};
     }
     placeCentres(mesh_, surface, cancel_);
   }
@@ -137,6 +142,7 @@ class Refiner {
         if (depth == 0) whole_[part.element] = element;
       }
       here.emplace_back(part.element, element);
+      if (own_patches_) noteNode(mesh_.shapes[mesh_.surfaces[surface_].elements.first + element].patch);
       const double area = polygonArea(part.polygon);
       mesh_.shapes[mesh_.surfaces[surface_].elements.first + element].area += area;
       mesh_.pieces.push_back({{static_cast<std::uint32_t>(mesh_.piece_corners.size()),
@@ -157,6 +163,12 @@ class Refiner {
       ++patches.count;
     }
     return found->second;
+  }
+
+  void noteNode(std::uint32_t patch) {
+    if (patch >= in_node_.size()) in_node_.resize(patch + 1, 0);
+    if (mesh_.patch_shapes[mesh_.surfaces[surface_].patches.first + patch].node == node_of_cell_[cell_])
+      in_node_[patch] = 1;
   }
 
   // The nodes of the patches, which tile the cells: a piece may belong to a patch of the cell beside.
@@ -181,6 +193,7 @@ class Refiner {
   std::vector<std::uint32_t> base_element_;
   std::uint32_t cell_ = 0, quartered_count_ = 0;
   std::vector<std::uint32_t> node_of_cell_;
+  std::vector<char> in_node_;  // one per patch: some of it lies in its node
   // Of the part that was quartered (0: none) and the base's patch, that of the mesh; local to the surface.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> patch_;
   std::vector<ConvexPolygon> asked_;
@@ -276,10 +289,6 @@ class Interpolation {
   Buckets triangles_;
   SparseRows rows_;
 };
-
-}  // namespace
-
-namespace {
 
 // A copy without what is made of elements.
 Mesh withoutElements(const Mesh& base) {

@@ -1,6 +1,6 @@
-// A mesh whose elements are as fine as somebody asks, from a uniform one: cells are quartered, and quartered
-// again. Surfaces, sides and patches stay what they are, and the uniform mesh stays beside it, for what needs
-// no more than its vertices.
+// A mesh whose elements are as fine as somebody asks, from a coarser one: cells are quartered, and quartered
+// again. Surfaces, sides and patches stay what they are, and the coarser mesh stays beside it, for what needs
+// no more than its vertices; or the quarters become patches too.
 #pragma once
 
 #include <functional>

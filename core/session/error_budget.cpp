@@ -1,14 +1,16 @@
 #include "session/error_budget.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/clock.h"
 
 namespace unshot {
 namespace {
 
-// Where less of the light than this is missing, columns of patches that matter are all in the matrix.
-constexpr double kNearlyWhole = 0.1;
+// Of all light: what patches send whose columns the matrix lacks, for errors to be carried by it all the
+// same.
+constexpr double kLacked = 0.05;
 
 // Share of the solver's work that goes into bounds beyond the passes over patches that each step has anyway.
 constexpr double kShare = 0.034;
@@ -119,14 +121,26 @@ const ErrorEstimates& ErrorBudget::estimate(std::size_t more_places, const std::
   const Timed timed(seconds_);
   if (!residuals_) residuals_.emplace(mesh_, transport_.receivers(), seed_);
   residuals_->add(more_places, shown);
-  estimates_ =
-      residuals_->estimate(state_, matrix_, shown, bounds_.complete() || now_.total_upper < kNearlyWhole);
+  estimates_ = residuals_->estimate(state_, matrix_, shown, matrixIsNearlyWhole());
   if (defects_version_ != matrix_.version()) {
     defects_ = matrix_.defects();
     defects_version_ = matrix_.version();
   }
   estimates_.defects = defects_;
   return estimates_;
+}
+
+bool ErrorBudget::matrixIsNearlyWhole() const {
+  double all = 0, lacked = 0;
+  for (std::uint32_t q = 0; q < matrix_.size(); ++q) {
+    const glm::dvec3& s = state_.shot()[q];
+    const double shot =
+        matrix_.area(q) * (std::abs(s.x + state_.unshot()[q].x) + std::abs(s.y + state_.unshot()[q].y) +
+                           std::abs(s.z + state_.unshot()[q].z));
+    all += shot;
+    if (!matrix_.knows(q)) lacked += shot;
+  }
+  return lacked <= kLacked * all;
 }
 
 void ErrorBudget::forgetPlaces() {

@@ -42,6 +42,8 @@ class ErrorBudget {
   std::size_t bytes() const { return matrix_.bytes(); }
 
  private:
+  bool matrixIsNearlyWhole() const;
+
   const Mesh& mesh_;
   const Transport& transport_;
   const RadiosityState& state_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <utility>
 
 #include "mesh/mesh_rays.h"
 #include "mesh/refine.h"
@@ -12,7 +11,7 @@ namespace {
 
 // Cells may be so many gaps wide; where that makes too many, twice as wide, and so on.
 constexpr double kGaps = 2.5;
-constexpr double kMostTimes = 1.5;
+constexpr double kMostTimes = 2;
 constexpr int kMostAttempts = 6;
 // Walls face each other where the angle between them is less than 60 degrees.
 constexpr double kFacing = 0.5;
@@ -37,7 +36,7 @@ class GapQuestion {
     bool split = false;
     for (const std::uint32_t side : surface.side)
       split = split || (side != kNone && isNearLamp(part, surface, side, gap));
-    if (split) elements_ += 3;
+    if (split) elements_ += 3 * ((surface.side[0] != kNone) + (surface.side[1] != kNone));
     return split;
   }
 
@@ -59,10 +58,13 @@ class GapQuestion {
     const glm::dvec3& normal = base_.sides[side].normal;
     const auto hit = rays_.intersect(rays_.rays().lifted(point, normal), normal);
     if (!hit || hit->side == kNone || hit->at.distance > gap) return false;
-    return glm::dot(base_.sides[hit->side].normal, normal) < -kFacing &&
-           (base_.sides[side].emission != glm::dvec3(0.0) ||
-            base_.sides[hit->side].emission != glm::dvec3(0.0));
+    const Side &near = base_.sides[side], &far = base_.sides[hit->side];
+    return glm::dot(far.normal, normal) < -kFacing && reflects(near) && reflects(far) &&
+           (near.emission != glm::dvec3(0.0) || far.emission != glm::dvec3(0.0));
   }
+
+  // Else light does not go to and fro.
+  static bool reflects(const Side& side) { return side.reflectance != glm::dvec3(0.0); }
 
   const Mesh& base_;
   const CancelToken& cancel_;

@@ -11,7 +11,7 @@
 namespace unshot {
 
 /// Quarters cells of `base`, a uniform mesh, which are wider than the gap between an emitting side and one
-/// that faces it, on both of them, until they are about as wide as it or have become half as many again.
+/// that faces it, on both of them, until they are about as wide as it or have become twice as many.
 /// The result is a mesh of its own, with patches as fine there, or `base` itself where there is no such gap.
 /// Throws Cancelled.
 std::shared_ptr<const Mesh> refineInGaps(std::shared_ptr<const Mesh> base, const CancelToken& cancel = {});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "base/cosine_direction.h"
 #include "base/random.h"
@@ -21,6 +22,8 @@ constexpr int kShadowStrata = 5, kFewShadowStrata = 2;
 constexpr std::size_t kFewEmitters = 4;
 // Emitters are wide from nearer than so many radii, and nearer to their plane than one.
 constexpr double kNear = 3;
+// Times SceneRays::lift: distances that rays tell from none.
+constexpr double kTold = 10;
 
 struct Draws {
   std::uint64_t state;
@@ -51,29 +54,29 @@ Gather Gatherer::look(const glm::dvec3& position, const glm::dvec3& normal, std:
   out.rays.reserve(kStrata * kStrata);
   const glm::dvec3 eye = rays_.rays().lifted(position, normal);
   Draws draws{mixBits(stream)};
-  std::vector<std::uint32_t> met;  // triangles, one per ray
-  met.reserve(kStrata * kStrata);
+  std::vector<Reach> reaches;
+  reaches.reserve(kStrata * kStrata);
   for (int i = 0; i < kStrata; ++i) {
     for (int j = 0; j < kStrata; ++j) {
       const double u = (i + draws.next()) / kStrata, v = (j + draws.next()) / kStrata;
       const glm::dvec3 direction = cosineDirection(normal, u, v);
       const auto hit = rays_.intersect(eye, direction);
-      met.push_back(hit ? hit->at.triangle : kNone);
+      reaches.push_back({direction, hit ? hit->at.distance : std::numeric_limits<double>::infinity()});
       out.rays.push_back(!hit                 ? kToSky
                          : hit->side == kNone ? kNone
                                               : elementOf(hit->surface, hit->side, hit->at.position));
     }
   }
-  lookAtLights(position, normal, met, mixBits(stream ^ 0x5bd1e995u), out);
+  lookAtLights(position, normal, reaches, mixBits(stream ^ 0x5bd1e995u), out);
   return out;
 }
 
 void Gatherer::lookAtLights(const glm::dvec3& position, const glm::dvec3& normal,
-                            const std::vector<std::uint32_t>& met, std::uint64_t stream, Gather& out) const {
+                            const std::vector<Reach>& reaches, std::uint64_t stream, Gather& out) const {
   if (emitters_.size() <= kMostEmitters) {
     const int strata = emitters_.size() <= kFewEmitters ? kShadowStrata : kFewShadowStrata;
     for (std::size_t k = 0; k < emitters_.size(); ++k)
-      lookAtLight(emitters_[k], position, normal, met, strata, 1, mixBits(stream + k), out);
+      lookAtLight(emitters_[k], position, normal, reaches, strata, 1, mixBits(stream + k), out);
     return;
   }
   // By power over distance squared, in strata of the sum.
@@ -90,14 +93,14 @@ void Gatherer::lookAtLights(const glm::dvec3& position, const glm::dvec3& normal
     const auto k = std::min<std::size_t>(
         static_cast<std::size_t>(std::upper_bound(sum.begin(), sum.end(), at) - sum.begin()), sum.size() - 1);
     const double probability = (sum[k] - (k > 0 ? sum[k - 1] : 0)) / total;
-    lookAtLight(emitters_[k], position, normal, met, kFewShadowStrata, 1 / (kMostEmitters * probability),
+    lookAtLight(emitters_[k], position, normal, reaches, kFewShadowStrata, 1 / (kMostEmitters * probability),
                 mixBits(stream + i), out);
   }
 }
 
 void Gatherer::lookAtLight(const Emitter& emitter, const glm::dvec3& position, const glm::dvec3& normal,
-                           const std::vector<std::uint32_t>& met, int strata, double weight,
-                           std::uint64_t stream, Gather& out) const {
+                           const std::vector<Reach>& reaches, int strata, double weight, std::uint64_t stream,
+                           Gather& out) const {
   const Side& side = mesh_.sides[emitter.side];
   const SceneRays::Triangle& t = rays_.rays().triangle(emitter.triangle);
   if (glm::dot(position - t.corners[0], side.normal) <= rays_.rays().lift()) return;
@@ -107,13 +110,17 @@ void Gatherer::lookAtLight(const Emitter& emitter, const glm::dvec3& position, c
   const double factor = weight * std::max(pointToPolygonFactor(position, normal, ring, scratch), 0.0);
   if (factor <= 0) return;
   const glm::dvec3 eye = rays_.rays().lifted(position, normal);
+  // Samples spread over its area say little of an emitter that is wider than it is away.
+  const glm::dvec3 centre = (t.corners[0] + t.corners[1] + t.corners[2]) / 3.0;
+  const double radius = std::sqrt(t.area);
+  const bool wide =
+      glm::dot(position - centre, side.normal) < radius && glm::length(centre - position) < kNear * radius;
   struct Sample {
     std::uint32_t element;
     double kernel;
   };
   std::vector<Sample> visible;
   double kernels = 0;
-  bool hidden = false;
   Draws draws{stream};
   for (int i = 0; i < strata; ++i) {
     for (int j = 0; j < strata; ++j) {
@@ -124,28 +131,37 @@ void Gatherer::lookAtLight(const Emitter& emitter, const glm::dvec3& position, c
       if (from_eye <= 0 || from_light <= 0) continue;  // below the horizon: not hidden, not there
       const double kernel = from_eye * from_light / (square * square);
       kernels += kernel;
-      if (rays_.rays().occluded(eye, rays_.rays().lifted(at, side.normal))) {
-        hidden = true;
-        continue;
-      }
+      if (!wide && rays_.rays().occluded(eye, rays_.rays().lifted(at, side.normal))) continue;
       visible.push_back({elementOf(side.surface, emitter.side, at), kernel});
     }
-  }
-  // Samples are spread over its area, which says little of one that is wider than it is away: where some are
-  // hidden, the rays that have met it say how much of it is seen.
-  const glm::dvec3 centre = (t.corners[0] + t.corners[1] + t.corners[2]) / 3.0;
-  const double radius = std::sqrt(t.area), away = std::abs(glm::dot(centre - position, side.normal));
-  if (hidden && away < radius && glm::length(centre - position) < kNear * radius) {
-    for (std::size_t k = 0; k < met.size(); ++k) {
-      if (met[k] == emitter.triangle && out.rays[k] != kNone && out.rays[k] != kToSky)
-        out.lights.push_back(
-            {mesh_.element_patch[out.rays[k]], static_cast<float>(weight / static_cast<double>(met.size()))});
-    }
-    return;
   }
   for (const Sample& s : visible) {
     if (s.element == kNone) continue;
     out.lights.push_back({mesh_.element_patch[s.element], static_cast<float>(factor * s.kernel / kernels)});
+  }
+  if (wide) takeHidden(emitter, position, reaches, weight, out);
+}
+
+// Off the light of an emitter that counts whole: the share of the rays that point at it and end before.
+void Gatherer::takeHidden(const Emitter& emitter, const glm::dvec3& position,
+                          const std::vector<Reach>& reaches, double weight, Gather& out) const {
+  const Side& side = mesh_.sides[emitter.side];
+  const SceneRays::Triangle& t = rays_.rays().triangle(emitter.triangle);
+  for (const Reach& reach : reaches) {
+    const double towards = -glm::dot(reach.direction, side.normal);
+    if (towards <= 0) continue;
+    const double distance = glm::dot(position - t.corners[0], side.normal) / towards;
+    if (reach.distance >= distance - kTold * rays_.rays().lift()) continue;
+    const glm::dvec3 at = position + distance * reach.direction;
+    bool inside = true;
+    for (int k = 0; k < 3; ++k)
+      inside = inside &&
+               glm::dot(glm::cross(t.corners[(k + 1) % 3] - t.corners[k], at - t.corners[k]), t.normal) >= 0;
+    if (!inside) continue;
+    const std::uint32_t element = elementOf(side.surface, emitter.side, at);
+    if (element != kNone)
+      out.lights.push_back(
+          {mesh_.element_patch[element], static_cast<float>(-weight / static_cast<double>(reaches.size()))});
   }
 }
 

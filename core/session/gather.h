@@ -12,8 +12,7 @@ namespace unshot {
 /// In place of an element: a ray that leaves the scene, into the sky.
 inline constexpr std::uint32_t kToSky = kNone - 1;
 
-/// One unbiased look from a point. H = sum of weight * (what the patch has shot of its emission) over
-/// `lights`
+/// One unbiased look from a point. H = sum of weight * (what the patch sends of its emission) over `lights`
 /// + mean of what the elements in `rays` send besides.
 struct Gather {
   struct Light {
@@ -25,8 +24,8 @@ struct Gather {
 };
 
 /// Looks around in a scene. Emitters are seen by their exact polygon factor times the share of it that shadow
-/// rays find visible, or by the rays that meet them where they are very wide and partly hidden, all else by
-/// cosine-distributed rays in strata.
+/// rays find visible, all else by cosine-distributed rays in strata; where an emitter is very wide these tell
+/// how much of it is hidden.
 class Gatherer {
  public:
   explicit Gatherer(const Mesh& mesh);
@@ -40,12 +39,17 @@ class Gatherer {
     std::uint32_t side;
     double power;  // channels summed
   };
-  // `met`: the triangle that each ray of `out` has met.
-  void lookAtLights(const glm::dvec3& position, const glm::dvec3& normal,
-                    const std::vector<std::uint32_t>& met, std::uint64_t stream, Gather& out) const;
+  struct Reach {
+    glm::dvec3 direction;  // of a ray
+    double distance;       // where it ends [m]
+  };
+  void lookAtLights(const glm::dvec3& position, const glm::dvec3& normal, const std::vector<Reach>& reaches,
+                    std::uint64_t stream, Gather& out) const;
   void lookAtLight(const Emitter& emitter, const glm::dvec3& position, const glm::dvec3& normal,
-                   const std::vector<std::uint32_t>& met, int samples, double weight, std::uint64_t stream,
+                   const std::vector<Reach>& reaches, int samples, double weight, std::uint64_t stream,
                    Gather& out) const;
+  void takeHidden(const Emitter& emitter, const glm::dvec3& position, const std::vector<Reach>& reaches,
+                  double weight, Gather& out) const;
   std::uint32_t elementOf(std::uint32_t surface, std::uint32_t side, const glm::dvec3& position) const;
 
   const Mesh& mesh_;

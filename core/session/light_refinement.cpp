@@ -27,7 +27,8 @@ constexpr double kAreaMargin = 1e-9;
 constexpr double kWorst = 10;
 // Of that: what an emitter brings at least to be looked for behind others.
 constexpr double kNegligible = 0.02;
-// Emitting patches looked at, over all points, here and afterwards by the form factors: some seconds each.
+// Emitting patches (of the uniform mesh) looked at, over all points: some seconds here, and about as long or,
+// with narrow gaps, some times as long afterwards by the form factors.
 constexpr double kMostLooks = 1e7;
 // Vertices of an element, about.
 constexpr double kVertices = 2;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "base/random.h"
 #include "session/fields.h"
@@ -19,16 +21,15 @@ struct Carry {
 constexpr Carry kCarry{0.01, 12}, kCorrection{0.1, 4};
 constexpr int kCorrections = 3;
 // What is carried is known per patch. At thousands of path-traced points (the Cornell boxes, two rooms, each
-// at several finenesses) errors were 0.8 to 1.5 times as large as at either end of the interval by noise
-// alone.
-constexpr double kCarryFactor = 1.5;
+// at several finenesses) errors were between 0.8 and 1.7 times what noise alone leaves open.
+constexpr double kCarryFactor = 1.8;
 // Half the width of a 95 % interval in standard errors, for the few dozens of places that matter of the
 // hundreds.
 constexpr double kInterval = 2.1;
 
 // How many places of its own a patch needs to outweigh what is known of its side, a side what is known of
 // all.
-constexpr double kBelief = 2;
+constexpr double kBelief = 1;
 
 double fraction(double x) { return x - std::floor(x); }
 
@@ -42,6 +43,9 @@ std::uint32_t chooseBy(const std::vector<double>& sums, double u) {
   return static_cast<std::uint32_t>(std::min<std::ptrdiff_t>(at - sums.begin(), std::ssize(sums) - 1));
 }
 
+// What k itself adds to running sums.
+double ownOf(const std::vector<double>& sums, std::size_t k) { return sums[k] - (k > 0 ? sums[k - 1] : 0); }
+
 glm::dvec3 barycentric(double u, double v) {
   const double r = std::sqrt(u);
   return {1 - r, r * (1 - v), r * v};
@@ -51,26 +55,31 @@ struct Ratio {
   double value = 0, error = 0;  // and its standard error
 };
 
-// sum t / sum s over places, with the spread of a ratio estimator.
-Ratio ratioOf(const std::vector<double>& t, const std::vector<double>& s) {
+// sum t / sum s over places, with the spread of a ratio estimator; nothing where noise hides what s is.
+std::optional<Ratio> ratioOf(const std::vector<double>& t, const std::vector<double>& s) {
   double top = 0, bottom = 0, squares = 0;
+  bool dark = true;
   for (std::size_t k = 0; k < t.size(); ++k) {
     top += t[k];
     bottom += s[k];
+    dark = dark && t[k] == 0 && s[k] == 0;
   }
-  if (bottom <= 0) return {};
+  if (t.size() < 2) return std::nullopt;
+  if (dark) return Ratio{};
+  if (!(bottom > 0)) return std::nullopt;
   const double value = top / bottom;
   for (std::size_t k = 0; k < t.size(); ++k) squares += (t[k] - value * s[k]) * (t[k] - value * s[k]);
   const auto n = static_cast<double>(t.size());
-  return {value, std::sqrt(squares * n / std::max(n - 1, 1.0)) / bottom};
+  return Ratio{value, std::sqrt(squares * n / (n - 1)) / bottom};
 }
 
-ErrorEstimate estimateOf(const Ratio& square, std::size_t places) {
+ErrorEstimate estimateOf(const std::optional<Ratio>& square, std::size_t places) {
+  if (!square) return {};
   const auto root = [](double x) { return std::sqrt(std::max(x, 0.0)); };
   // Below 0 it is by noise, which leaves room for an error all the same.
-  const double value = std::max(square.value, 0.0);
-  return {root(value), root(value - kInterval * square.error) / kCarryFactor,
-          kCarryFactor * root(value + kInterval * square.error), places};
+  const double value = std::max(square->value, 0.0);
+  return {root(value), root(value - kInterval * square->error) / kCarryFactor,
+          kCarryFactor * root(value + kInterval * square->error), places};
 }
 
 // What a look meets of light that patches send, one value per patch [W/m^2].
@@ -82,21 +91,25 @@ glm::dvec3 meets(const Gather& look, const std::vector<std::uint32_t>& element_p
   return sum / static_cast<double>(look.rays.size());
 }
 
-// Sums over places: of values, and of the light that is reflected there.
+// Sums over places of weights, of values and of the light that is reflected there.
 struct Shares {
   glm::dvec3 value{0.0}, light{0.0};
-  double places = 0;
+  double weight = 0, places = 0;
 
-  void add(double weight, const glm::dvec3& v, const glm::dvec3& l) {
-    value += weight * v;
-    light += weight * l;
+  void add(double w, const glm::dvec3& v, const glm::dvec3& l) {
+    value += w * v;
+    light += w * l;
+    weight += w;
     ++places;
   }
-  // Value over light; with few places it leans on what is known of a larger part.
-  glm::dvec3 ratio(const glm::dvec3& of_larger) const {
+  // Value over light of a part of the mesh that reflects `reflected` in the mean; with few places it leans on
+  // what is known of a larger part.
+  glm::dvec3 ratio(const glm::dvec3& reflected, const glm::dvec3& of_larger) const {
+    if (places == 0) return of_larger;
+    const glm::dvec3 belief = kBelief * weight / places * reflected;
     glm::dvec3 out = of_larger;
     for (int c = 0; c < 3; ++c) {
-      if (light[c] > 0) out[c] = (places * value[c] / light[c] + kBelief * of_larger[c]) / (places + kBelief);
+      if (light[c] + belief[c] > 0) out[c] = (value[c] + belief[c] * of_larger[c]) / (light[c] + belief[c]);
     }
     return out;
   }
@@ -114,12 +127,22 @@ std::vector<glm::dvec3> patchMeans(const Residuals& residuals, const std::vector
     for (Shares* shares : {&all, &of_side[mesh.patch_side[r.patch]], &of_patch[r.patch]})
       shares->add(r.weight, values[k], r.reflected);
   }
-  const glm::dvec3 everywhere = all.ratio(glm::dvec3(0.0));
-  std::vector<glm::dvec3> out(state.patchCount(), glm::dvec3(0.0));
+  const auto reflected = [&](std::uint32_t q) {
+    return glm::max(state.shot()[q] + state.unshot()[q] - state.emission()[q], glm::dvec3(0.0));
+  };
+  std::vector<glm::dvec3> side_ratio(mesh.sides.size(), glm::dvec3(0.0));
+  std::vector<double> side_area(mesh.sides.size(), 0.0);
   for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
-    const glm::dvec3 reflected = state.shot()[q] + state.unshot()[q] - state.emission()[q];
-    out[q] = of_patch[q].ratio(of_side[mesh.patch_side[q]].ratio(everywhere)) * reflected;
+    side_ratio[mesh.patch_side[q]] += mesh.patch_area[q] * reflected(q);
+    side_area[mesh.patch_side[q]] += mesh.patch_area[q];
   }
+  const glm::dvec3 everywhere = all.ratio(glm::dvec3(0.0), glm::dvec3(0.0));
+  for (std::size_t s = 0; s < side_ratio.size(); ++s)
+    side_ratio[s] =
+        side_area[s] > 0 ? of_side[s].ratio(side_ratio[s] / side_area[s], everywhere) : everywhere;
+  std::vector<glm::dvec3> out(state.patchCount(), glm::dvec3(0.0));
+  for (std::uint32_t q = 0; q < mesh.patch_count; ++q)
+    out[q] = of_patch[q].ratio(reflected(q), side_ratio[mesh.patch_side[q]]) * reflected(q);
   return out;
 }
 
@@ -129,8 +152,8 @@ std::vector<glm::dvec3> patchMeans(const Residuals& residuals, const std::vector
 // With K the true operator, e = r + K e. M in its place leaves the error r' = (K - M) e, which is a residual
 // again: the looks say what K makes of an error that is known per patch.
 template <class Places, class Residuals>
-Ratio squaredError(const Places& places, const Residuals& residuals, const Mesh& mesh,
-                   const RadiosityState& state, const PatchMatrix& matrix) {
+std::optional<Ratio> squaredError(const Places& places, const Residuals& residuals, const Mesh& mesh,
+                                  const RadiosityState& state, const PatchMatrix& matrix) {
   const std::size_t n = state.patchCount(), count = residuals.size();
   std::vector<glm::dvec3> error[2];
   for (int look = 0; look < 2; ++look) {
@@ -203,9 +226,7 @@ Residuals::Choice Residuals::choose(const std::vector<double>& area_sum, const s
   if (light_sum.back() <= 0) return {chooseBy(area_sum, evenly(number, seed)), 1};
   const double u = evenly(number / 2, seed + number % 2);
   const std::uint32_t k = chooseBy(number % 2 == 0 ? area_sum : light_sum, u);
-  const auto share = [k](const std::vector<double>& sum) {
-    return (sum[k] - (k > 0 ? sum[k - 1] : 0)) / sum.back();
-  };
+  const auto share = [k](const std::vector<double>& sum) { return ownOf(sum, k) / sum.back(); };
   return {k, 2 / (1 + share(light_sum) / share(area_sum))};
 }
 
@@ -213,9 +234,6 @@ Residuals::Choice Residuals::choose(const std::vector<double>& area_sum, const s
 void Residuals::findLight(const std::vector<glm::dvec3>& shown) {
   triangle_light_sum_.clear();
   receiver_light_sum_.clear();
-  const auto own = [](const std::vector<double>& sum, std::size_t k) {
-    return sum[k] - (k > 0 ? sum[k - 1] : 0);
-  };
   const auto lightOf = [](const glm::dvec3& rho, const glm::dvec3& h) {
     const glm::dvec3 b = rho * h;
     const double sum = b.x + b.y + b.z;
@@ -229,11 +247,11 @@ void Residuals::findLight(const std::vector<glm::dvec3>& shown) {
                              glm::dvec3(h.vertices[corner[2]])) /
                             3.0;
     const Side& side = mesh_.sides[mesh_.element_side[mesh_.triangle_element[t]]];
-    triangle_light_sum_.push_back(sum += own(triangle_area_sum_, t) * lightOf(side.reflectance, mean));
+    triangle_light_sum_.push_back(sum += ownOf(triangle_area_sum_, t) * lightOf(side.reflectance, mean));
   }
   sum = 0;
   for (std::uint32_t v = 0; v < receiver_area_sum_.size(); ++v)
-    receiver_light_sum_.push_back(sum += own(receiver_area_sum_, v) *
+    receiver_light_sum_.push_back(sum += ownOf(receiver_area_sum_, v) *
                                          lightOf(receivers_.reflectance[v], receivers_.shown(v, shown)));
 }
 
@@ -243,7 +261,9 @@ void Residuals::forgetPlaces() {
 }
 
 void Residuals::add(std::size_t places, const std::vector<glm::dvec3>& shown) {
-  if (triangle_area_sum_.empty() || triangle_area_sum_.back() <= 0 || receiver_area_sum_.back() <= 0) return;
+  if (places == 0 || triangle_area_sum_.empty() || triangle_area_sum_.back() <= 0 ||
+      receiver_area_sum_.back() <= 0)
+    return;
   findLight(shown);
   for (std::size_t k = 0; k < places; ++k) {
     const std::uint64_t number = points_.size();
@@ -289,7 +309,7 @@ void Residuals::addReceiver(std::uint64_t number) {
       continue;
     }
     // Each look from a place of its own in the element: its H is a mean.
-    if (!element_points_ || element_points_->empty(place.receiver)) return;
+    if (element_points_->empty(place.receiver)) return;
     std::uint64_t state = mixBits(bits + 10 * k);
     const glm::dvec3 position =
         element_points_->at(place.receiver, [&] { return unitInterval(state = mixBits(state)); });
@@ -382,13 +402,14 @@ ErrorEstimates Residuals::estimate(const RadiosityState& state, const PatchMatri
   const auto squared = [&](const std::vector<Place>& places, const std::vector<Residual>& residuals) {
     return squaredError(places, residuals, mesh_, state, matrix);
   };
-  const Ratio both = squared(points_, pointResiduals(state, shown, false));
-  const Ratio factors = squared(elements_, receiverResiduals(state));
+  const std::optional<Ratio> both = squared(points_, pointResiduals(state, shown, false));
+  const std::optional<Ratio> factors = squared(elements_, receiverResiduals(state));
   out.both = estimateOf(both, points_.size());
   out.form_factor = estimateOf(factors, elements_.size());
-  out.discretisation = estimateOf(
-      {std::max(both.value, 0.0) - std::max(factors.value, 0.0), std::hypot(both.error, factors.error)},
-      points_.size());
+  if (both && factors)
+    out.discretisation = estimateOf(Ratio{std::max(both->value, 0.0) - std::max(factors->value, 0.0),
+                                          std::hypot(both->error, factors->error)},
+                                    points_.size());
   if (with_total)
     out.total = estimateOf(squared(points_, pointResiduals(state, shown, true)), points_.size());
   return out;
@@ -396,22 +417,28 @@ ErrorEstimates Residuals::estimate(const RadiosityState& state, const PatchMatri
 
 std::vector<double> Residuals::patchResiduals(const RadiosityState& state,
                                               const std::vector<glm::dvec3>& shown) const {
-  std::vector<double> sum(mesh_.patch_count, 0), count(mesh_.patch_count, 0), side_sum(mesh_.sides.size(), 0),
-      side_count(mesh_.sides.size(), 0);
+  struct Square {
+    double sum = 0, weight = 0, places = 0;
+    void add(double w, double square) {
+      sum += w * square;
+      weight += w;
+      ++places;
+    }
+    double mean() const { return weight > 0 ? sum / weight : 0; }
+  };
+  std::vector<Square> of_patch(mesh_.patch_count), of_side(mesh_.sides.size());
   for (const Residual& r : pointResiduals(state, shown, false)) {
     const double square = glm::dot(r.of_look[0], r.of_look[1]) / 3;
-    sum[r.patch] += square;
-    ++count[r.patch];
-    side_sum[mesh_.patch_side[r.patch]] += square;
-    ++side_count[mesh_.patch_side[r.patch]];
+    of_patch[r.patch].add(r.weight, square);
+    of_side[mesh_.patch_side[r.patch]].add(r.weight, square);
   }
   // With few points of its own a patch is taken to be like its side.
+  std::vector<double> out(mesh_.patch_count);
   for (std::uint32_t q = 0; q < mesh_.patch_count; ++q) {
-    const std::uint32_t s = mesh_.patch_side[q];
-    const double of_side = side_count[s] > 0 ? side_sum[s] / side_count[s] : 0;
-    sum[q] = std::sqrt(std::max(0.0, (sum[q] + kBelief * of_side) / (count[q] + kBelief)));
+    const double side = of_side[mesh_.patch_side[q]].mean(), places = of_patch[q].places;
+    out[q] = std::sqrt(std::max(0.0, (places * of_patch[q].mean() + kBelief * side) / (places + kBelief)));
   }
-  return sum;
+  return out;
 }
 
 }  // namespace unshot

@@ -8,8 +8,8 @@
 //
 // A residual r is carried through the kept matrix: the error is e = r + c with c = (I - M)^-1 M r, where r of
 // a patch is known from the points that fall on it. Estimates with confidence intervals (95 %, from the
-// spread over places, and half as wide again for what patches are too coarse to carry); they know nothing of
-// light that no look has found.
+// spread over places, and a factor of 1.8 either way for what patches are too coarse to carry); they know
+// nothing of light that no look has found.
 //
 // Where the matrix is wrong, in a narrow gap say, so is what it carries: K in its place leaves the residual
 // (K - M) e, which the looks know as well, and which is carried in turn.
@@ -56,7 +56,7 @@ class Residuals {
   void forgetPlaces();
 
   /// Of the present state. `shown`: H as it is shown, one per receiver [W/m^2]. `with_total`: where the
-  /// matrix is whole. Costs some hundred products with the matrix.
+  /// matrix lacks little. Costs up to 170 products with the matrix.
   ErrorEstimates estimate(const RadiosityState& state, const PatchMatrix& matrix,
                           const std::vector<glm::dvec3>& shown, bool with_total) const;
   /// RMS over its points of the residual of each patch [W/m^2], channels averaged; a patch with few points
@@ -84,8 +84,6 @@ class Residuals {
     std::vector<glm::dvec3> light;     // besides emission, one per element [W/m^2]
     glm::dvec3 sky{0.0};               // [W/m^2]
   };
-  // Where places may lie, and how much of their light or area comes before: sums, one per triangle or
-  // receiver.
   struct Choice {
     std::uint32_t index;
     double weight;
@@ -109,6 +107,8 @@ class Residuals {
   const Receivers& receivers_;
   std::uint64_t seed_;
   Gatherer gatherer_;
+  // Running sums over triangles and receivers: of the area where places may lie, and of the square of the
+  // light there.
   std::vector<double> triangle_area_sum_, receiver_area_sum_;
   std::vector<double> triangle_light_sum_, receiver_light_sum_;
   std::optional<ElementPoints> element_points_;  // where receivers are elements

@@ -141,6 +141,7 @@ TEST(Sky, AndReflectionAgreeWithThePathTracedReference) {
     const ErrorEstimate estimate = solve->estimate(512).total;
     measured("estimated", estimate.value);
     measured("at most", estimate.high);
+    EXPECT_EQ(estimate.places, 512u);
     EXPECT_LT(estimate.value, 0.03);
     EXPECT_GT(estimate.high, 0.7 * error);
   }

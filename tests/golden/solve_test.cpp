@@ -97,8 +97,8 @@ TEST(Solve, AResolutionForNoHemicubesIsSaid) {
   }
 }
 
-// A lamp a hundredth below the ceiling shines upwards: all light is what leaves the gap above it, which
-// patches that lie half above the lamp let out too easily.
+// A lamp a ten-thousandth below the ceiling shines upwards: all light is what leaves the gap above it, which
+// is narrower than any cell may be.
 TEST(Solve, SaysWhereTheErrorAskedForIsMissed) {
   const TempFolder folder;
   const auto solve = [&](const std::string& lamp) {

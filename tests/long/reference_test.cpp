@@ -62,6 +62,7 @@ double errorAgainst(const fs::path& scene, const fs::path& reference, std::optio
   measured(name + "estimated", estimate.value);
   measured(name + "interval, low", estimate.low);
   measured(name + "interval, high", estimate.high);
+  EXPECT_EQ(estimate.places, 512u) << name;
   EXPECT_GE(error, estimate.low - 2 * spread) << name;
   EXPECT_LE(error, estimate.high + 2 * spread) << name;
   return error;
@@ -147,7 +148,8 @@ TEST_P(TracedScene, AgreesWithItsReference) {
   EXPECT_LT(deviations.worst, 5);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, TracedScene, testing::ValuesIn(kShared),
+// Each scene once.
+INSTANTIATE_TEST_SUITE_P(Scenes, TracedScene, testing::Values(kShared[0], kShared[1], kShared[4]),
                          [](const auto& row) { return row.param.name; });
 
 }  // namespace
