@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kPlacesInPassing = 128, kPlacesAtRest = 512, kPlacesAtOnce = 64;
 // Share of the solver's time that bounds and estimates may take together, with what is left for the last
 // step.
-constexpr double kErrorShare = 0.075;
+constexpr double kErrorShare = 0.06;
 // An estimate passes over the whole mesh: on a larger one it would be felt as a pause.
 constexpr std::size_t kMostElementsInPassing = 200'000;
 
