@@ -1,7 +1,12 @@
 #include "session/gap_refinement.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+#include <iterator>
+#include <span>
+#include <vector>
 
 #include "mesh/mesh_rays.h"
 #include "mesh/refine.h"
@@ -20,7 +25,15 @@ constexpr double kInset = 0.1;
 
 class GapQuestion {
  public:
-  GapQuestion(const Mesh& base, const CancelToken& cancel) : base_(base), cancel_(cancel), rays_(base) {}
+  GapQuestion(const Mesh& base, const CancelToken& cancel) : base_(base), cancel_(cancel), rays_(base) {
+    for (std::uint32_t s = 0; s < base.surfaces.size(); ++s) {
+      const Surface& surface = base.surfaces[s];
+      const bool emits = std::any_of(std::begin(surface.side), std::end(surface.side), [&](std::uint32_t k) {
+        return k != kNone && base.sides[k].emission != glm::dvec3(0.0) && reflects(base.sides[k]);
+      });
+      if (emits) lamps_.push_back(boxOf(surface, glm::dvec2(0.0), surface.extent));
+    }
+  }
 
   void restart(double gaps) {
     gaps_ = gaps;
@@ -33,6 +46,7 @@ class GapQuestion {
     const Surface& surface = base_.surfaces[part.surface];
     const glm::dvec2 size = part.high - part.low;
     const double gap = std::max(size.x, size.y) / gaps_;
+    if (isFarFromLamps(part, surface, gap)) return false;
     bool split = false;
     for (const std::uint32_t side : surface.side)
       split = split || (side != kNone && isNearLamp(part, surface, side, gap));
@@ -43,6 +57,28 @@ class GapQuestion {
   bool full() const { return static_cast<double>(elements_) > kMostTimes * base_.element_count; }
 
  private:
+  struct Box {
+    glm::dvec3 low, high;
+  };
+  static Box boxOf(const Surface& surface, const glm::dvec2& low, const glm::dvec2& high) {
+    Box box{surface.point(low), surface.point(low)};
+    for (const glm::dvec2& corner : {high, glm::dvec2(low.x, high.y), glm::dvec2(high.x, low.y)}) {
+      box.low = glm::min(box.low, surface.point(corner));
+      box.high = glm::max(box.high, surface.point(corner));
+    }
+    return box;
+  }
+
+  bool isFarFromLamps(const CellPart& part, const Surface& surface, double gap) const {
+    const Box box = boxOf(surface, part.low, part.high);
+    // With room for rounding, and for a ray that begins a little above the surface.
+    const glm::dvec3 room(1.01 * gap + 10 * rays_.rays().lift());
+    return std::none_of(lamps_.begin(), lamps_.end(), [&](const Box& lamp) {
+      return glm::all(glm::lessThanEqual(box.low, lamp.high + room)) &&
+             glm::all(glm::lessThanEqual(lamp.low, box.high + room));
+    });
+  }
+
   bool isNearLamp(const CellPart& part, const Surface& surface, std::uint32_t side, double gap) const {
     for (const ConvexPolygon& polygon : part.pieces) {
       const glm::dvec2 centre = polygonCentroid(polygon);
@@ -69,14 +105,46 @@ class GapQuestion {
   const Mesh& base_;
   const CancelToken& cancel_;
   MeshRays rays_;
+  std::vector<Box> lamps_;  // around surfaces that emit and reflect
   double gaps_ = kGaps;
   std::uint64_t elements_ = 0;
 };
 
+// Whether light can go to and fro anywhere between a lamp and what faces it.
+bool hasReflectingLamp(const Mesh& mesh) {
+  return std::any_of(mesh.sides.begin(), mesh.sides.end(), [](const Side& side) {
+    return side.emission != glm::dvec3(0.0) && side.reflectance != glm::dvec3(0.0);
+  });
+}
+
+// Whether any whole cell asks to be quartered.
+bool anyCellAsks(const Mesh& base, GapQuestion& question) {
+  std::vector<ConvexPolygon> pieces;
+  for (std::uint32_t s = 0; s < base.surfaces.size(); ++s) {
+    const Surface& surface = base.surfaces[s];
+    if (surface.elements.count == 0) continue;
+    const glm::dvec2 step = surface.extent / glm::dvec2(surface.nu, surface.nv);
+    for (std::uint32_t c = 0; c < surface.nu * surface.nv; ++c) {
+      const Range range = base.cells[surface.first_cell + c].pieces;
+      pieces.clear();
+      for (std::uint32_t p = range.first; p < range.end(); ++p) {
+        const std::span<const PieceCorner> corners = base.cornersOf(base.pieces[p]);
+        pieces.emplace_back(corners.begin(), corners.end());
+      }
+      const glm::dvec2 low = step * glm::dvec2(c % surface.nu, c / surface.nu);
+      if (question({s, low, low + step, 0, pieces})) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 std::shared_ptr<const Mesh> refineInGaps(std::shared_ptr<const Mesh> base, const CancelToken& cancel) {
+  if (!hasReflectingLamp(*base)) return base;
   GapQuestion question(*base, cancel);
+  question.restart(kGaps);
+  if (!anyCellAsks(*base, question)) return base;
   double gaps = kGaps;
   for (int attempt = 0; attempt < kMostAttempts; ++attempt, gaps *= 2) {
     question.restart(gaps);
