@@ -37,7 +37,7 @@ void runSteps(Solve& solve, const InterruptFlag& interrupted, Progress& progress
       solve.interrupt();
       break;
     }
-    solve.step();
+    solve.step(Solve::kMostAtOnce);
     const Measures& m = solve.measures();
     progress.update({solve.progress(), m.unshot_fraction, m.solverBound(), m.shots, m.seconds});
   }

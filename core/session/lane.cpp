@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kPlacesInPassing = 128, kPlacesAtRest = 512, kPlacesAtOnce = 64;
 // Share of the solver's time that bounds and estimates may take together, with what is left for the last
 // step.
-constexpr double kErrorShare = 0.06;
+constexpr double kErrorShare = 0.05;
 // An estimate passes over the whole mesh: on a larger one it would be felt as a pause.
 constexpr std::size_t kMostElementsInPassing = 200'000;
 
@@ -115,10 +115,10 @@ void Lane::completeBounces() {
   complete_bounces_ = true;
 }
 
-void Lane::step() {
+void Lane::step(std::uint64_t most_shots) {
   const double before = solve_->errorSeconds();
   try {
-    solve_->step();
+    solve_->step(most_shots);
     error_seconds_ += solve_->errorSeconds() - before;
     stale_ = estimates_stale_ = true;
     estimateInPassing();

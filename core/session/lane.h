@@ -39,8 +39,8 @@ class Lane {
   void again();
   void completeBounces();
 
-  /// One step, after which estimates may be made too.
-  void step();
+  /// One step (Solve::step), after which estimates may be made too.
+  void step(std::uint64_t most_shots = Solve::kMostAtOnce);
   /// Wall time that bounds and estimates took while it ran, since it last began with nothing shot: less than
   /// a tenth of measures().seconds, the bounds as often as they come and estimates with what is left.
   double errorSeconds() const { return error_seconds_; }

@@ -59,7 +59,7 @@ void LiveSolve::takeSteps() {
   });
   forEachLane([&](Lane& lane) {
     if (!lane.running() || (steps_left_ == 0 && &lane != behind)) return;
-    lane.step();
+    lane.step(steps_left_ > 0 ? 1 : Solve::kMostAtOnce);
     if (rival_) lane.rest();
   });
 }

@@ -16,6 +16,8 @@ namespace {
 
 // Unshot power over emitted power that a direct solution leaves at most.
 constexpr double kSolved = 1e-10;
+// Shots taken at once along columns at hand: one for so many before.
+constexpr std::uint64_t kShotsBeforeMore = 200;
 
 void checkError(double error) {
   if (error > 0 && error < 1) return;
@@ -187,11 +189,21 @@ void Solve::Impl::refine() {
   drafts.step(*transport, *state);
 }
 
-// A step of the mode; one that cannot go on ends the solve as failed, with what it has.
-std::optional<std::size_t> Solve::Impl::iterate() {
+// A step of the mode, or some where each is a shot along a column at hand: looking at what it leaves takes as
+// long. A mode that cannot go on ends the solve as failed, with what it has.
+std::optional<std::size_t> Solve::Impl::iterate(std::uint64_t most_shots) {
   if (!mode) mode = options.bounces ? makeBounces(*options.bounces) : mode_row->make();
+  if (options.max_shots) most_shots = std::min(most_shots, *options.max_shots - measures.shots);
+  most_shots = std::min(most_shots, measures.shots / kShotsBeforeMore);
+  const std::uint64_t computed = transport->computed();
   try {
-    return mode->step(*state, *transport);
+    std::size_t shots = 0;
+    for (;;) {
+      const std::optional<std::size_t> used = mode->step(*state, *transport);
+      if (!used && shots == 0) return std::nullopt;
+      shots += used.value_or(0);
+      if (used != 1 || shots >= most_shots || transport->computed() != computed) return shots;
+    }
   } catch (const IterationFailure& problem) {
     mode_failed = true;
     fail(problem.kind(), problem.what(), problem.advice());
@@ -206,7 +218,7 @@ Solve::Solve(Scene scene, SolveOptions options, std::function<gl::Context&()> gl
 
 Solve::~Solve() = default;
 
-void Solve::step() {
+void Solve::step(std::uint64_t most_shots) {
   Impl& s = *impl_;
   if (s.progress_state != SolveState::kRunning) return;
   s.wakeClocks();
@@ -217,7 +229,7 @@ void Solve::step() {
     s.refine();
   } else if (s.lacksBound() && s.completeColumns()) {
     refined = false;
-  } else if (const auto used = s.iterate()) {
+  } else if (const auto used = s.iterate(most_shots)) {
     s.measures.shots += *used;
     refined = false;
   } else {

@@ -79,7 +79,7 @@ struct Solve::Impl {
   void refine();
   bool lacksBound() const;
   bool completeColumns();
-  std::optional<std::size_t> iterate();
+  std::optional<std::size_t> iterate(std::uint64_t most_shots);
 };
 
 }  // namespace unshot

@@ -1,9 +1,11 @@
 #include "solver/bounds.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <numeric>
+#include <type_traits>
 
 namespace unshot {
 namespace {
@@ -18,12 +20,39 @@ constexpr double kRounding = 4 * 6e-8;
 constexpr double kGain = 0.01;
 // Above 1, so that an adapted comparison stays positive where U is 0.
 constexpr double kAdaptedMargin = 1.25;
+// Calls with one way to bound the RMS error between two that try all.
+constexpr int kBetweenAllWays = 7;
 // Unshot radiosity this far below 0, as a share of the largest, is rounding.
 constexpr double kSignless = 1e-12;
 
 double largest(const glm::dvec3& x) { return std::max({x.x, x.y, x.z}); }
 double least(const glm::dvec3& x) { return std::min({x.x, x.y, x.z}); }
 double sum(const glm::dvec3& x) { return x.x + x.y + x.z; }
+
+// Colours one after the other as their channels. A vector of them is that in memory.
+const double* channels(const std::vector<glm::dvec3>& x) { return &x.front().x; }
+
+// Two patches at a time: six sums side by side, which processors take in pairs or more.
+struct Lanes {
+  std::array<double, 6> of{};
+
+  glm::dvec3 sums() const { return {of[0] + of[3], of[1] + of[4], of[2] + of[5]}; }
+  glm::dvec3 largest() const {
+    return {std::max(of[0], of[3]), std::max(of[1], of[4]), std::max(of[2], of[5])};
+  }
+  double sum() const {
+    const glm::dvec3 x = sums();
+    return x.x + x.y + x.z;
+  }
+};
+
+// f(first patch, number of channels from it on).
+template <class F>
+void forLanes(std::size_t patches, F&& f) {
+  std::size_t q = 0;
+  for (; q + 1 < patches; q += 2) f(q, std::integral_constant<std::size_t, 6>());
+  if (q < patches) f(q, std::integral_constant<std::size_t, 3>());
+}
 
 // v = 1 + M 1 + M^2 1 + ... until w = v - M v is positive everywhere; v and w, or nothing. `multiply(x, out)`
 // is the product with M or its transpose.
@@ -57,9 +86,12 @@ ErrorBounds::ErrorBounds(const PatchMatrix& matrix, const RadiosityState& state)
     if (counted_[q]) counted_area_ += state.area()[q];
   }
   if (counted_area_ == 0) {  // everything emits
+    all_emit_ = true;
     std::fill(counted_.begin(), counted_.end(), 1);
     counted_area_ = std::accumulate(state.area().begin(), state.area().end(), 0.0);
   }
+  for (std::size_t q = 0; q < counted_.size(); ++q)
+    area_counted_.push_back(counted_[q] ? state.area()[q] : 0.0);
   capTotal();
 }
 
@@ -98,6 +130,7 @@ void ErrorBounds::capTotal() {
   rho *= matrix_.largestSent();
   z_.clear();
   if (largest(rho) < 1) z_.assign(matrix_.size(), rho / (1.0 - rho));
+  weights_stale_ = true;
 }
 
 // Where that is none, but all columns are known: a multiple of some y > M^T y.
@@ -120,9 +153,10 @@ bool ErrorBounds::lowerTotal() {
   most *= matrix_.largestSent();
   double before = 0, after = 0;
   Field lower(z_.size());
+  matrix_.transposed(x, lower);
   for (std::uint32_t q = 0; q < z_.size(); ++q) {
     // An unknown column that does not matter carries nothing.
-    const glm::dvec3 sent = matrix_.knows(q) ? matrix_.transposed(q, x) * (1 + kRounding)
+    const glm::dvec3 sent = matrix_.knows(q) ? lower[q] * (1 + kRounding)
                             : complete_      ? glm::dvec3(0.0)
                                              : most;
     lower[q] = glm::min(z_[q], sent);
@@ -190,7 +224,10 @@ void ErrorBounds::bracketRadius() {
 
 void ErrorBounds::columnChanged(std::uint32_t q) {
   if (!matrix_.knows(q)) return;
-  if (y_[q] != glm::dvec3(0.0)) std::fill(y_.begin(), y_.end(), glm::dvec3(0.0));
+  if (y_[q] != glm::dvec3(0.0)) {
+    std::fill(y_.begin(), y_.end(), glm::dvec3(0.0));
+    weights_stale_ = true;
+  }
   if (z_.empty()) return;
   const glm::dvec3 sent = matrix_.transposed(q, reflected(countedPlus(z_))) * (1 + kRounding);
   if (largest(sent - z_[q]) > 0) capTotal();
@@ -209,6 +246,7 @@ bool ErrorBounds::refresh() {
     nearby_.clear();
   }
   raiseTotal();
+  weights_stale_ = true;
   bool gains = false;
   for (int k = 0; k < kProductsAtOnce; ++k) {
     gains = !z_.empty() && lowerTotal();
@@ -244,39 +282,46 @@ double ErrorBounds::rmsOf(double squares) const {
   return counted_area_ > 0 ? std::sqrt(squares / (3 * counted_area_)) : 0;
 }
 
-// Each step of a solve comes here, so that all sums are taken in one pass.
-ErrorBounds::Sums ErrorBounds::sumsNow() const {
-  Sums out;
-  // The compiler cannot know that the sums do not lie over the vectors.
-  const glm::dvec3 *u = state_.unshot().data(), *shot = state_.shot().data(),
-                   *emission = state_.emission().data(), *weights = norm_.weights().data();
-  const double* areas = state_.area().data();
-  const bool total = !z_.empty(), compare = comparable(), adapted = !adapted_.empty(),
-             near = !nearby_.empty();
-  for (std::size_t q = 0, n = state_.patchCount(); q < n; ++q) {
-    const double area = areas[q];
-    const glm::dvec3 size = glm::abs(u[q]);
-    const bool below = least(u[q]) < 0;
-    out.arriving += area * sum((below ? glm::max(u[q], glm::dvec3(0.0)) : u[q]) * y_[q]);
-    out.signs = out.signs || below;
-    if (total) {
-      out.weighted += area * sum(size * z_[q]);
-      if (below) out.negative += area * sum(glm::max(-u[q], glm::dvec3(0.0)) * z_[q]);
+// z and y in single precision, rounded to the safe side.
+void ErrorBounds::weightTotals() {
+  weights_stale_ = false;
+  const std::size_t n = state_.patchCount();
+  upper_weights_.assign(3 * n, 1.0f);  // without z: whether U is below 0 somewhere
+  lower_weights_.assign(3 * n, 0.0f);
+  for (std::size_t q = 0; q < n; ++q) {
+    const double area = state_.area()[q] / counted_area_;
+    for (int c = 0; c < 3; ++c) {
+      lower_weights_[3 * q + c] = static_cast<float>(area * y_[q][c] * (1 - kRounding));
+      if (!z_.empty())
+        upper_weights_[3 * q + c] =
+            static_cast<float>(area * z_[q][c] * (1 + kRounding)) + std::numeric_limits<float>::min();
     }
-    if (compare) {
-      out.norm += weights[q] * size * size;
-      out.factor = glm::max(out.factor, size * compared_.inverse_w[q]);
-    }
-    if (adapted) out.adapted_factor = glm::max(out.adapted_factor, size * adapted_.inverse_w[q]);
-    if (!counted_[q]) continue;
-    const glm::dvec3 reflected = shot[q] + u[q] - emission[q];
-    out.reflected += area * sum(reflected);
-    out.reflected_squares += area * sum(reflected * reflected);
-    if (!near) continue;
-    const glm::dvec3 off = nearby_[q] - shot[q] - u[q];
-    out.nearby_squares += area * sum(off * off);
   }
-  return out;
+}
+
+// Each step of a solve comes here.
+ErrorBounds::Sums ErrorBounds::sumsNow() const {
+  const double *u = channels(state_.unshot()), *shot = channels(state_.shot()),
+               *emission = all_emit_ ? channels(state_.emission()) : nullptr;
+  const float *upper = upper_weights_.data(), *lower = lower_weights_.data();
+  Lanes arriving, weighted, negative, reflected, squares;
+  forLanes(state_.patchCount(), [&](std::size_t q, auto lanes) {
+    const std::size_t at = 3 * q;
+    for (std::size_t k = 0; k < lanes; ++k) {
+      const double size = std::abs(u[at + k]);
+      arriving.of[k] += (size + u[at + k]) * static_cast<double>(lower[at + k]);
+      weighted.of[k] += size * static_cast<double>(upper[at + k]);
+      negative.of[k] += (size - u[at + k]) * static_cast<double>(upper[at + k]);
+    }
+    for (std::size_t k = 0; k < lanes; ++k) {
+      const double area = area_counted_[q + k / 3];
+      const double light = shot[at + k] + u[at + k] - (emission ? emission[at + k] : 0.0);
+      reflected.of[k] += area * light;
+      squares.of[k] += area * light * light;
+    }
+  });
+  return {weighted.sum() * counted_area_, negative.sum() * counted_area_ / 2,
+          arriving.sum() * counted_area_ / 2, reflected.sum(), squares.sum()};
 }
 
 double ErrorBounds::totalUpper(const Sums& sums) const {
@@ -287,7 +332,7 @@ double ErrorBounds::totalUpper(const Sums& sums) const {
 }
 
 double ErrorBounds::totalLower(const Sums& sums) const {
-  if (sums.signs && z_.empty()) return 0;
+  if (sums.signs() && z_.empty()) return 0;
   const double missing = sums.arriving - sums.negative;
   return missing > 0 && sums.reflected >= 0 ? missing / (sums.reflected + missing) : 0;
 }
@@ -298,19 +343,76 @@ double ErrorBounds::upperOf(double rms, const Sums& sums) const {
   return now > rms ? rms / (now - rms) : kNoBound;
 }
 
-SolverBounds ErrorBounds::at() const {
+// A bound of the RMS error, where matrix and state have one of that kind.
+double ErrorBounds::rmsBy(Way way) const {
+  const double *u = channels(state_.unshot()), *shot = channels(state_.shot());
+  const std::size_t n = state_.patchCount();
+  Lanes lanes_of;
+  switch (way) {
+    case Way::kComparison:
+      return compared_.rmsAfter(state_.unshot(), *this);
+    case Way::kAdapted:
+      return adapted_.rmsAfter(state_.unshot(), *this);
+    case Way::kNorm: {
+      const double* weight = channels(norm_.weights());
+      forLanes(n, [&](std::size_t q, auto lanes) {
+        for (std::size_t k = 0, at = 3 * q; k < lanes; ++k, ++at)
+          lanes_of.of[k] += weight[at] * u[at] * u[at];
+      });
+      return rmsOf(norm_.squaresAfter(lanes_of.sums()));
+    }
+    case Way::kNearby: {
+      if (nearby_.empty()) return kNoBound;
+      const double* nearby = channels(nearby_);
+      forLanes(n, [&](std::size_t q, auto lanes) {
+        for (std::size_t k = 0, at = 3 * q; k < lanes; ++k, ++at) {
+          const double off = nearby[at] - shot[at] - u[at];
+          lanes_of.of[k] += area_counted_[q + k / 3] * off * off;
+        }
+      });
+      return rmsOf(lanes_of.sum()) + nearby_error_;
+    }
+  }
+  return kNoBound;
+}
+
+double ErrorBounds::tryAllWays() {
+  double least_rms = kNoBound;
+  for (const Way way : kWays) {
+    const double rms = rmsBy(way);
+    if (rms >= least_rms) continue;
+    least_rms = rms;
+    best_way_ = way;
+  }
+  left_before_all_ = kBetweenAllWays;
+  return least_rms;
+}
+
+SolverBounds ErrorBounds::at() {
+  if (weights_stale_) weightTotals();
   SolverBounds out;
   const Sums sums = sumsNow();
   out.total_upper = totalUpper(sums);
   out.total_lower = totalLower(sums);
   if (!comparable()) return out;
-  double rms = std::min(rmsOf(sum(sums.factor * sums.factor * compared_.squares)),
-                        rmsOf(norm_.squaresAfter(sums.norm)));
-  if (!adapted_.empty())
-    rms = std::min(rms, rmsOf(sum(sums.adapted_factor * sums.adapted_factor * adapted_.squares)));
-  if (!nearby_.empty()) rms = std::min(rms, rmsOf(sums.nearby_squares) + nearby_error_);
+  double rms = left_before_all_-- > 0 ? rmsBy(best_way_) : kNoBound;
+  if (rms == kNoBound) rms = tryAllWays();
   out.upper = upperOf(rms, sums);
   return out;
+}
+
+double ErrorBounds::Comparison::rmsAfter(const Field& u, const ErrorBounds& bounds) const {
+  if (inverse_w.empty()) return kNoBound;
+  const double *light = channels(u), *inverse = channels(inverse_w);
+  Lanes most;
+  forLanes(u.size(), [&](std::size_t q, auto lanes) {
+    for (std::size_t k = 0, at = 3 * q; k < lanes; ++k, ++at) {
+      const double ratio = std::abs(light[at]) * inverse[at];
+      most.of[k] = ratio > most.of[k] ? ratio : most.of[k];
+    }
+  });
+  const glm::dvec3 factor = most.largest();
+  return bounds.rmsOf(sum(factor * factor * squares));
 }
 
 void ErrorBounds::Comparison::set(const Field& v, const Field& w, const ErrorBounds& bounds) {
@@ -325,8 +427,10 @@ void ErrorBounds::Comparison::set(const Field& v, const Field& w, const ErrorBou
 
 // With signs, so that what cancels in M U counts as cancelled: e = M U + ... + M^k U + (I - M)^-1 M (M^k U).
 SolverBounds ErrorBounds::sharpened(int products) {
+  left_before_all_ = 0;
   SolverBounds out = at();
   if (!comparable() || products < 1) return out;
+  left_before_all_ = 0;  // there will be other ways
   const std::size_t n = state_.patchCount();
   Field power = state_.unshot(), powers(n, glm::dvec3(0.0)), image(n);
   double low = 0, high = 0;

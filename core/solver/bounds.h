@@ -52,8 +52,9 @@ class ErrorBounds {
   /// Takes up what the matrix has learnt and lowers the weights; some products with the matrix. Returns
   /// whether another call would gain.
   bool refresh();
-  /// The bounds of the present state; passes over the patches.
-  SolverBounds at() const;
+  /// The bounds of the present state; passes over the patches. Of the ways to bound the RMS error it takes
+  /// the one that was sharpest when all were last tried, every so many calls.
+  SolverBounds at();
   /// Sharper, by `products` products with the matrix.
   SolverBounds sharpened(int products);
 
@@ -89,38 +90,51 @@ class ErrorBounds {
   struct Sums {
     double weighted = 0, negative = 0;  // A |U| z, A max(-U, 0) z
     double arriving = 0;                // A max(U, 0) y
-    bool signs = false;                 // some U < 0
-    double reflected = 0, reflected_squares = 0, nearby_squares = 0;
-    glm::dvec3 norm{0.0}, factor{0.0}, adapted_factor{0.0};
+    double reflected = 0, reflected_squares = 0;
+    bool signs() const { return negative > 0; }
   };
   Sums sumsNow() const;
+  void weightTotals();
   double totalUpper(const Sums& sums) const;
   double totalLower(const Sums& sums) const;
   double upperOf(double rms, const Sums& sums) const;
+  // The ways to bound the RMS error.
+  enum class Way { kComparison, kNorm, kAdapted, kNearby };
+  static constexpr Way kWays[] = {Way::kComparison, Way::kNorm, Way::kAdapted, Way::kNearby};
+  double rmsBy(Way way) const;
+  double tryAllWays();
   // Of a pair v, w = v - M v > 0: |e| <= (v - w) max |U| / w.
   struct Comparison {
     Field inverse_w;
     glm::dvec3 squares{0.0};  // sum A (v - w)^2 where errors count
     bool empty() const { return inverse_w.empty(); }
     void set(const Field& v, const Field& w, const ErrorBounds& bounds);
+    double rmsAfter(const Field& u, const ErrorBounds& bounds) const;
   };
 
   const PatchMatrix& matrix_;
   const RadiosityState& state_;
-  std::vector<char> counted_;  // patches on which errors count
+  std::vector<char> counted_;         // patches on which errors count
+  std::vector<double> area_counted_;  // A there, 0 elsewhere
   double counted_area_ = 0;
+  bool all_emit_ = false;
   std::uint64_t revision_ = 0;
   bool complete_ = false;
   std::uint64_t version_ = 0;                           // of the matrix at the last refresh
   std::uint64_t compared_version_ = ~std::uint64_t{0};  // of the matrix that w_ belongs to
   Field z_;                                             // empty: no bound
   Field y_;                                             // below z
+  // A z, rounded up, and A y, rounded down, with A as a share of all of it; channels follow each other.
+  std::vector<float> upper_weights_, lower_weights_;
+  bool weights_stale_ = true;
   Field v_, w_, spectral_;
   Comparison compared_, adapted_;  // of v_ and w_; of the shape of U at the last sharpening
   NormBound norm_;
   // B + M U + ... + M^k U at the last sharpening: nearer to the solution, and how far from it at most (RMS).
   Field nearby_;
   double nearby_error_ = 0;
+  Way best_way_ = Way::kComparison;
+  int left_before_all_ = 0;  // calls of at() before all ways are tried again
   glm::dvec3 radius_lower_{0.0}, radius_upper_{kNoBound};
 };
 

@@ -7,6 +7,28 @@ namespace unshot {
 namespace {
 
 constexpr std::size_t kColumnsCompared = 64;
+// Gaps of no more patches than another run would take space for are bridged.
+constexpr std::uint32_t kBridged = 2;
+// Patches that receive are put in order by going through all where they are more than one in so many.
+constexpr std::size_t kFew = 16;
+
+// Colours with each channel by itself, for sums along runs.
+struct Channels {
+  std::vector<double> r, g, b;
+
+  explicit Channels(std::size_t size) : r(size, 0.0), g(size, 0.0), b(size, 0.0) {}
+};
+
+// Four sums side by side, which processors take in pairs or more.
+double dot(const float* a, const double* b, std::size_t count) {
+  double sums[4] = {};
+  std::size_t k = 0;
+  for (; k + 4 <= count; k += 4) {
+    for (std::size_t lane = 0; lane < 4; ++lane) sums[lane] += static_cast<double>(a[k + lane]) * b[k + lane];
+  }
+  for (; k < count; ++k) sums[0] += static_cast<double>(a[k]) * b[k];
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
 
 }  // namespace
 
@@ -23,7 +45,8 @@ PatchMatrix::PatchMatrix(const Receivers& receivers, std::span<const double> are
 void PatchMatrix::set(std::uint32_t q, const Column& column) {
   ++version_;
   if (known_[q]) {
-    bytes_ -= columns_[q].capacity() * sizeof(Entry);
+    bytes_ -= columns_[q].bytes();
+    entry_count_ -= columns_[q].values.size();
     columns_[q] = {};
     known_[q] = 0;
     --known_count_;
@@ -36,47 +59,114 @@ void PatchMatrix::set(std::uint32_t q, const Column& column) {
       sum_[share.patch] += share.area * k;
     }
   });
-  std::sort(touched_.begin(), touched_.end());
-  std::vector<Entry>& out = columns_[q];
-  out.reserve(touched_.size());
-  double sent = 0;
-  for (const std::uint32_t p : touched_) {
-    sent += sum_[p] / area_[q];
-    reached_[p] = 1;
-    out.push_back({p, static_cast<float>(sum_[p] / area_[p])});
-    sum_[p] = 0;
-  }
-  touched_.clear();
+  putInOrder();
+  store(columns_[q], q);
   closure_[q] = column.defect;
-  largest_sent_ = std::max(largest_sent_, sent);
-  bytes_ += out.capacity() * sizeof(Entry);
+  bytes_ += columns_[q].bytes();
+  entry_count_ += columns_[q].values.size();
   known_[q] = 1;
   ++known_count_;
 }
 
-void PatchMatrix::product(std::span<const glm::dvec3> x, std::span<glm::dvec3> out) const {
-  std::fill(out.begin(), out.end(), glm::dvec3(0.0));
-  for (std::size_t q = 0; q < columns_.size(); ++q) {
-    if (x[q] == glm::dvec3(0.0)) continue;
-    for (const Entry& e : columns_[q]) out[e.patch] += static_cast<double>(e.value) * x[q];
+void PatchMatrix::putInOrder() {
+  if (touched_.size() * kFew < sum_.size()) {
+    std::sort(touched_.begin(), touched_.end());
+    touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+    return;
   }
+  touched_.clear();
+  for (std::uint32_t p = 0; p < sum_.size(); ++p) {
+    if (sum_[p] != 0) touched_.push_back(p);
+  }
+}
+
+// Of the sums, which are 0 again afterwards.
+void PatchMatrix::store(PatchColumn& out, std::uint32_t q) {
+  std::uint32_t values = 0, runs = 1;
+  for (std::size_t k = 0; k < touched_.size(); ++k) {
+    const std::uint32_t gap = k == 0 ? kBridged + 1 : touched_[k] - touched_[k - 1] - 1;
+    if (gap > kBridged) ++runs;
+    values += 1 + (gap > kBridged ? 0 : gap);
+  }
+  out.values.reserve(values);
+  out.runs.reserve(runs);
+  double sent = 0;
+  for (std::size_t k = 0; k < touched_.size(); ++k) {
+    const std::uint32_t p = touched_[k], gap = k == 0 ? kBridged + 1 : p - touched_[k - 1] - 1;
+    if (gap > kBridged)
+      out.runs.push_back({p, static_cast<std::uint32_t>(out.values.size())});
+    else
+      out.values.insert(out.values.end(), gap, 0.0f);
+    out.values.push_back(static_cast<float>(sum_[p] / area_[p]));
+    sent += sum_[p] / area_[q];
+    reached_[p] = 1;
+    sum_[p] = 0;
+  }
+  out.runs.push_back({static_cast<std::uint32_t>(sum_.size()), values});
+  touched_.clear();
+  largest_sent_ = std::max(largest_sent_, sent);
+}
+
+template <class F>
+void PatchMatrix::forEachRun(std::uint32_t q, F&& f) const {
+  const PatchColumn& column = columns_[q];
+  for (std::size_t r = 0; r + 1 < column.runs.size(); ++r) {
+    const Run& run = column.runs[r];
+    f(run.patch, column.values.data() + run.at, std::size_t{column.runs[r + 1].at - run.at});
+  }
+}
+
+void PatchMatrix::product(std::span<const glm::dvec3> x, std::span<glm::dvec3> out) const {
+  Channels sums(out.size());
+  for (std::uint32_t q = 0; q < columns_.size(); ++q) {
+    const glm::dvec3 sent = x[q];
+    if (sent == glm::dvec3(0.0)) continue;
+    forEachRun(q, [&](std::uint32_t first, const float* values, std::size_t count) {
+      double *r = &sums.r[first], *g = &sums.g[first], *b = &sums.b[first];
+      for (std::size_t k = 0; k < count; ++k) {
+        const double value = values[k];
+        r[k] += value * sent.x;
+        g[k] += value * sent.y;
+        b[k] += value * sent.z;
+      }
+    });
+  }
+  for (std::size_t p = 0; p < out.size(); ++p) out[p] = {sums.r[p], sums.g[p], sums.b[p]};
 }
 
 glm::dvec3 PatchMatrix::transposed(std::uint32_t q, std::span<const glm::dvec3> x) const {
   glm::dvec3 sum(0.0);
-  for (const Entry& e : columns_[q]) sum += area_[e.patch] * static_cast<double>(e.value) * x[e.patch];
+  forEachRun(q, [&](std::uint32_t first, const float* values, std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k)
+      sum += area_[first + k] * static_cast<double>(values[k]) * x[first + k];
+  });
   return sum / area_[q];
 }
 
 void PatchMatrix::transposed(std::span<const glm::dvec3> x, std::span<glm::dvec3> out) const {
-  for (std::uint32_t q = 0; q < columns_.size(); ++q) out[q] = transposed(q, x);
+  Channels weighted(x.size());
+  for (std::size_t p = 0; p < x.size(); ++p) {
+    weighted.r[p] = area_[p] * x[p].x;
+    weighted.g[p] = area_[p] * x[p].y;
+    weighted.b[p] = area_[p] * x[p].z;
+  }
+  for (std::uint32_t q = 0; q < columns_.size(); ++q) {
+    glm::dvec3 sum(0.0);
+    forEachRun(q, [&](std::uint32_t first, const float* values, std::size_t count) {
+      sum += glm::dvec3(dot(values, &weighted.r[first], count), dot(values, &weighted.g[first], count),
+                        dot(values, &weighted.b[first], count));
+    });
+    out[q] = sum / area_[q];
+  }
 }
 
 double PatchMatrix::exchange(std::uint32_t p, std::uint32_t q) const {
-  const std::vector<Entry>& column = columns_[q];
-  const auto at = std::lower_bound(column.begin(), column.end(), p,
-                                   [](const Entry& e, std::uint32_t patch) { return e.patch < patch; });
-  return at != column.end() && at->patch == p ? area_[p] * static_cast<double>(at->value) : 0.0;
+  const PatchColumn& column = columns_[q];
+  const auto next = std::upper_bound(column.runs.begin(), column.runs.end(), p,
+                                     [](std::uint32_t patch, const Run& run) { return patch < run.patch; });
+  if (next == column.runs.begin() || next == column.runs.end()) return 0;
+  const std::uint32_t at = (next - 1)->at + (p - (next - 1)->patch);
+  return at < next->at ? area_[p] * static_cast<double>(column.values[at]) : 0.0;
 }
 
 FormFactorDefects PatchMatrix::defects() const {
@@ -90,14 +180,17 @@ FormFactorDefects PatchMatrix::defects() const {
     lost += area_[q] * closure_[q] * closure_[q];
     area += area_[q];
     if (number++ % stride != 0) continue;
-    for (const Entry& e : columns_[q]) {
-      if (!known_[e.patch] || e.patch == q) continue;
-      const double there = area_[e.patch] * static_cast<double>(e.value), back = exchange(q, e.patch);
-      // Where nothing comes back the pair would not be met from the other side.
-      const double weight = back == 0 ? 2 : 1;
-      difference += weight * (there - back) * (there - back);
-      size += weight * (there * there + back * back);
-    }
+    forEachRun(q, [&](std::uint32_t first, const float* values, std::size_t count) {
+      for (std::size_t k = 0; k < count; ++k) {
+        const auto p = static_cast<std::uint32_t>(first + k);
+        if (values[k] == 0 || !known_[p] || p == q) continue;
+        const double there = area_[p] * static_cast<double>(values[k]), back = exchange(q, p);
+        // Where nothing comes back the pair would not be met from the other side.
+        const double weight = back == 0 ? 2 : 1;
+        difference += weight * (there - back) * (there - back);
+        size += weight * (there * there + back * back);
+      }
+    });
   }
   if (area > 0) out.closure = std::sqrt(lost / area);
   if (size > 0) out.reciprocity = std::sqrt(difference / size);

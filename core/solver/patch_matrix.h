@@ -36,7 +36,7 @@ class PatchMatrix {
   std::size_t size() const { return known_.size(); }
   std::size_t knownCount() const { return known_count_; }
   std::size_t bytes() const { return bytes_; }
-  std::size_t entryCount() const { return bytes_ / sizeof(Entry); }
+  std::size_t entryCount() const { return entry_count_; }
   /// One more at each set().
   std::uint64_t version() const { return version_; }
   /// The largest share of its light that a known patch sends to others: 1 but for approximation.
@@ -53,19 +53,31 @@ class PatchMatrix {
   FormFactorDefects defects() const;
 
  private:
-  struct Entry {
-    std::uint32_t patch;
-    float value;
+  // P_pq of one q: entries in runs of patches that follow each other, 0 where a short gap is bridged. Run r
+  // is of the patches from runs[r].patch on and has the values from runs[r].at to runs[r + 1].at, a last run
+  // without values.
+  struct Run {
+    std::uint32_t patch, at;
   };
+  struct PatchColumn {
+    std::vector<Run> runs;
+    std::vector<float> values;
+    std::size_t bytes() const { return runs.capacity() * sizeof(Run) + values.capacity() * sizeof(float); }
+  };
+  // f(patch, values, number) for each run of column q.
+  template <class F>
+  void forEachRun(std::uint32_t q, F&& f) const;
+  void putInOrder();
+  void store(PatchColumn& out, std::uint32_t q);
   /// A_p P_pq of known column q [m^2].
   double exchange(std::uint32_t p, std::uint32_t q) const;
 
   const Receivers& receivers_;
   std::span<const double> area_;
-  std::size_t budget_, bytes_ = 0, known_count_ = 0;
+  std::size_t budget_, bytes_ = 0, entry_count_ = 0, known_count_ = 0;
   std::uint64_t version_ = 0;
   double largest_sent_ = 1;
-  std::vector<std::vector<Entry>> columns_;
+  std::vector<PatchColumn> columns_;
   std::vector<char> known_, reached_;
   std::vector<double> closure_;  // what a known column lacks
   std::vector<double> sum_;

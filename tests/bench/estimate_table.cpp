@@ -28,7 +28,7 @@ void addRow(TextTable& table, const std::string& scene, const std::string& mode,
                                    });
   };
   const std::unique_ptr<Solve> solve = begun(options);
-  while (solve->state() == SolveState::kRunning) solve->step();
+  while (solve->state() == SolveState::kRunning) solve->step(Solve::kMostAtOnce);
   // Busy time: bounds and estimates take one thread, OpenGL in software all of them.
   const double bounds = solve->errorSeconds(), seconds = solve->seconds().cpu_solve, began = wallSeconds();
   solve->estimate(256);

@@ -32,7 +32,7 @@ inline std::unique_ptr<Solve> plainSolve(const std::filesystem::path& scene, con
   auto solve = std::make_unique<Solve>(readObj(scene), options, [&]() -> gl::Context& {
     throw Error(ErrorKind::kInternal, "closed forms do not draw");
   });
-  while (solve->state() == SolveState::kRunning) solve->step();
+  while (solve->state() == SolveState::kRunning) solve->step(Solve::kMostAtOnce);
   return solve;
 }
 

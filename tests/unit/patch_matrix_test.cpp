@@ -37,6 +37,43 @@ struct Patches {
   }
 };
 
+// Columns with gaps of every length, one of them replaced, against sums over a full table.
+TEST(PatchMatrix, MultipliesWhatItWasGiven) {
+  constexpr std::uint32_t kPatches = 41;
+  std::vector<double> area(kPatches);
+  for (std::uint32_t p = 0; p < kPatches; ++p) area[p] = 1 + 0.1 * (p % 7);
+  Patches patches(area);
+  std::vector<std::vector<float>> factors(kPatches);
+  std::size_t known = 0;
+  for (int round = 0; round < 2; ++round) {
+    for (std::uint32_t q = 0; q < kPatches; ++q) {
+      if (q % 5 == 4 || (round == 1 && q % 3 != 0)) continue;  // some stay unknown, some are set again
+      factors[q].assign(kPatches, 0.0f);
+      for (std::uint32_t p = q % 4; p < kPatches; p += 1 + (p * p + q + round) % 6)
+        factors[q][p] = 0.001f * static_cast<float>(1 + p + 2 * q + round);
+      known += round == 0;
+      patches.set(q, factors[q]);
+    }
+  }
+  EXPECT_EQ(patches.matrix.knownCount(), known);
+  std::vector<glm::dvec3> x(kPatches), image(kPatches), mean(kPatches);
+  for (std::uint32_t p = 0; p < kPatches; ++p) x[p] = {1.0 + p, 2.0 - 0.3 * p, p % 2 ? 0.0 : 1.0};
+  patches.matrix.product(x, image);
+  patches.matrix.transposed(x, mean);
+  for (std::uint32_t p = 0; p < kPatches; ++p) {
+    glm::dvec3 arrives(0.0), sent(0.0);
+    for (std::uint32_t q = 0; q < kPatches; ++q) {
+      if (!factors[q].empty()) arrives += double{factors[q][p]} * x[q];
+      if (!factors[p].empty()) sent += area[q] * double{factors[p][q]} * x[q] / area[p];
+    }
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(image[p][c], arrives[c], 1e-6 * (1 + std::abs(arrives[c])));
+      EXPECT_NEAR(mean[p][c], sent[c], 1e-6 * (1 + std::abs(sent[c])));
+      EXPECT_NEAR(patches.matrix.transposed(p, x)[c], sent[c], 1e-6 * (1 + std::abs(sent[c])));
+    }
+  }
+}
+
 TEST(FormFactorDefects, AreNoneOfReciprocalFactorsThatAddUp) {
   Patches patches({1, 2, 4});
   // A_p F_pq = 0.25 for all pairs.

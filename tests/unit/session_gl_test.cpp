@@ -31,7 +31,7 @@ TEST(SessionGl, SolvesWithHemicubesAndLeavesTheContextFree) {
   Snapshot expected;
   {
     Solve plain(readObj(asset("cornell_box.obj")), options, [&]() -> gl::Context& { return *context; });
-    while (plain.state() == SolveState::kRunning) plain.step();
+    while (plain.state() == SolveState::kRunning) plain.step(Solve::kMostAtOnce);
     expected = plain.snapshot();
   }
   context->release();

@@ -63,6 +63,29 @@ TEST(Solve, ShootsAgainInEveryModeAndKnowsItsErrorAfterDirect) {
   }
 }
 
+TEST(Solve, TakesTheSameShotsSeveralAtOnceAndNotOneTooMany) {
+  constexpr std::uint64_t kShots = 1999;
+  SolveOptions options;
+  options.form_factors = "closed-form";
+  options.elements = 120;
+  options.error = 1e-300;
+  options.max_shots = kShots;
+  const auto end = [&](std::uint64_t most_shots, int& steps) {
+    auto solve = std::make_unique<Solve>(asset("two_rooms.obj"), options, []() -> gl::Context& {
+      throw Error(ErrorKind::kInternal, "closed forms do not draw");
+    });
+    for (steps = 0; solve->state() == SolveState::kRunning; ++steps) solve->step(most_shots);
+    EXPECT_EQ(solve->stoppedBy(), "max_shots");
+    EXPECT_EQ(solve->measures().shots, kShots);
+    return solve;
+  };
+  int one_by_one = 0, at_once = 0;
+  const auto single = end(1, one_by_one), several = end(Solve::kMostAtOnce, at_once);
+  EXPECT_EQ(single->snapshot().irradiance, several->snapshot().irradiance);
+  EXPECT_EQ(one_by_one, int{kShots});
+  EXPECT_LT(at_once, one_by_one / 2);
+}
+
 TEST(Solve, ValidatesModeAndErrorAndKeepsThemWhereTheyAreBad) {
   const auto solve = begin(asset("two_patches.obj"), 0.25, "jacobi");
   EXPECT_THROW(solve->setMode("none"), Error);
