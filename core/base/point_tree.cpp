@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <numeric>
 
 namespace unshot {
@@ -95,11 +97,16 @@ bool PointTree::search(Meets&& meets, Visit&& visit) const {
 
 void PointTree::nearSegment(const glm::dvec3& a, const glm::dvec3& b, double distance,
                             const std::function<void(std::uint32_t)>& found) const {
-  search([&](const Box& box) { return segmentMeetsBox(a, b, box.low - distance, box.high + distance); },
-         [&](std::uint32_t k) {
-           if (squaredDistanceToSegment(points_[k], a, b) <= distance * distance) found(k);
-           return false;
-         });
+  const glm::dvec3 low = glm::min(a, b) - distance, high = glm::max(a, b) + distance;
+  search(
+      [&](const Box& box) {
+        return glm::all(glm::lessThanEqual(box.low, high)) && glm::all(glm::lessThanEqual(low, box.high)) &&
+               segmentMeetsBox(a, b, box.low - distance, box.high + distance);
+      },
+      [&](std::uint32_t k) {
+        if (squaredDistanceToSegment(points_[k], a, b) <= distance * distance) found(k);
+        return false;
+      });
 }
 
 bool PointTree::anyInFront(const glm::dvec3& normal, double offset) const {

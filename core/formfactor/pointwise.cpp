@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+
+#include "formfactor/emitter_share.h"
 
 namespace unshot {
 namespace {
@@ -27,34 +30,80 @@ Pointwise::Pointwise(const FormFactorSetup& setup, std::shared_ptr<const PatchPo
       receivers_(setup.receivers ? setup.receivers
                                  : std::make_shared<const Receivers>(
                                        makeReceivers(*setup.mesh, ReceiverKind::kVertices, setup.cancel))) {
+  const EmitterShare share(mesh_);
+  for (std::uint32_t q = 0; q < mesh_.patch_count; ++q)
+    exact_.push_back(!visibility_ || share.isLarge(mesh_.sides[mesh_.patch_side[q]], mesh_.patch_area[q]));
   if (visibility_) blocks_ = receiverBlocks(mesh_, *receivers_, setup.cancel);
 }
 
 double Pointwise::factor(std::uint32_t v, std::uint32_t q) {
   double sum = 0;
-  for (const ReceiverView& view : receivers_->viewsOf(v)) sum += view.weight * factor(view, q).k;
+  for (const ReceiverView& view : receivers_->viewsOf(v)) {
+    const double k = view.weight * lambert(view, q);
+    sum += k == 0 || !visibility_ ? k : k * visibility_->seen(view, q);
+  }
   return sum;
 }
 
-Pointwise::Seen Pointwise::factor(const ReceiverView& from, std::uint32_t q) {
-  if (mesh_.sides[from.side].surface == polygons_->surface(q)) return {};
-  // Without occlusion the factors are exact; beside what shadow rays leave open the rest does not show.
-  if (!visibility_) return {polygons_->factor(q, from.position, from.normal, scratch_), Sight::kAll};
-  const double lambert = mesh_.emits(q) ? polygons_->factor(q, from.position, from.normal, scratch_)
-                                        : polygons_->quickFactor(q, from.position, from.normal, scratch_);
-  if (lambert == 0) return {};
-  const double share = visibility_->seen(from, q);
-  return {lambert * share, share == 1 ? Sight::kAll : share == 0 ? Sight::kNothing : Sight::kPart};
+// The Lambert factor without occlusion.
+double Pointwise::lambert(const ReceiverView& from, std::uint32_t q) {
+  if (mesh_.sides[from.side].surface == polygons_->surface(q)) return 0;
+  return exact_[q] ? polygons_->factor(q, from.position, from.normal, scratch_)
+                   : polygons_->quickFactor(q, from.position, from.normal, scratch_);
 }
 
-double Pointwise::exactly(std::uint32_t v, std::uint32_t q, Column& column) {
-  const std::uint32_t entry = v - column.first;
-  if (sight_[entry] <= Sight::kInterpolated) {
-    const Seen seen = factor(receivers_->viewsOf(v)[0], q);
-    column.k[entry] = static_cast<float>(seen.k);
-    sight_[entry] = seen.sight;
+// take(number, k, sight) of the view, now or later: of the last ones by decide().
+template <class F>
+void Pointwise::look(Looks& looks, const ReceiverView& from, std::uint32_t number, std::uint32_t q,
+                     F&& take) {
+  const double k = from.weight * lambert(from, q);
+  if (k == 0) return take(number, 0.0, Sight::kNothing);
+  if (!visibility_) return take(number, k, Sight::kAll);
+  looks.views[looks.count] = &from;
+  looks.numbers[looks.count] = number;
+  looks.unoccluded[looks.count++] = k;
+  if (looks.count == Looks::kMost) decide(looks, q, take);
+}
+
+template <class F>
+void Pointwise::decide(Looks& looks, std::uint32_t q, F&& take) {
+  std::array<double, Looks::kMost> shares;
+  if (looks.count > 0)
+    visibility_->seenFrom({looks.views.data(), looks.count}, q, {shares.data(), looks.count});
+  for (std::size_t k = 0; k < looks.count; ++k) {
+    take(looks.numbers[k], looks.unoccluded[k] * shares[k],
+         shares[k] == 1   ? Sight::kAll
+         : shares[k] == 0 ? Sight::kNothing
+                          : Sight::kPart);
   }
-  return static_cast<double>(column.k[entry]);
+  looks.count = 0;
+}
+
+// Receivers in no block: of one view or more.
+void Pointwise::fillOneByOne(std::span<const std::uint32_t> vertices, std::uint32_t q, Column& column) {
+  sums_.assign(vertices.size(), 0.0);
+  Looks looks;
+  const auto take = [&](std::uint32_t number, double k, Sight) { sums_[number] += k; };
+  for (std::uint32_t n = 0; n < vertices.size(); ++n) {
+    for (const ReceiverView& view : receivers_->viewsOf(vertices[n])) look(looks, view, n, q, take);
+  }
+  decide(looks, q, take);
+  for (std::size_t n = 0; n < vertices.size(); ++n)
+    column.k[vertices[n] - column.first] = static_cast<float>(sums_[n]);
+}
+
+// Receivers of blocks, which have one view each, but for those that are known exactly.
+void Pointwise::fillExactly(std::span<const std::uint32_t> vertices, std::uint32_t q, Column& column) {
+  Looks looks;
+  const auto take = [&](std::uint32_t entry, double k, Sight sight) {
+    column.k[entry] = static_cast<float>(k);
+    sight_[entry] = sight;
+  };
+  for (const std::uint32_t v : vertices) {
+    const std::uint32_t entry = v - column.first;
+    if (sight_[entry] <= Sight::kInterpolated) look(looks, receivers_->viewsOf(v)[0], entry, q, take);
+  }
+  decide(looks, q, take);
 }
 
 // Over a part of a block: from nine places where all of them see the whole patch, or none anything of it, and
@@ -63,24 +112,26 @@ void Pointwise::fillBlock(const ReceiverBlock& block, const Rectangle& part, std
                           Column& column) {
   const std::uint32_t wide = part.i1 - part.i0, high = part.j1 - part.j0;
   if ((wide <= 2 && high <= 2) || wide < 2 || high < 2) {
+    wanted_.clear();
     for (std::uint32_t j = part.j0; j <= part.j1; ++j) {
-      for (std::uint32_t i = part.i0; i <= part.i1; ++i) exactly(block.at(i, j), q, column);
+      for (std::uint32_t i = part.i0; i <= part.i1; ++i) wanted_.push_back(block.at(i, j));
     }
-    return;
+    return fillExactly(wanted_, q, column);
   }
   const std::array<std::uint32_t, 3> is{part.i0, part.i0 + wide / 2, part.i1},
       js{part.j0, part.j0 + high / 2, part.j1};
   std::array<std::array<double, 3>, 3> k;  // [j][i]
   int all = 0, nothing = 0;
   double most = 0;
-  for (std::size_t j = 0; j < 3; ++j) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t v = block.at(is[i], js[j]);
-      k[j][i] = exactly(v, q, column);
-      most = std::max(most, k[j][i]);
-      all += sight_[v - column.first] == Sight::kAll;
-      nothing += sight_[v - column.first] == Sight::kNothing;
-    }
+  std::array<std::uint32_t, 9> places;
+  for (std::size_t n = 0; n < 9; ++n) places[n] = block.at(is[n % 3], js[n / 3]);
+  fillExactly(places, q, column);
+  for (std::size_t n = 0; n < 9; ++n) {
+    const std::uint32_t entry = places[n] - column.first;
+    k[n / 3][n % 3] = static_cast<double>(column.k[entry]);
+    most = std::max(most, k[n / 3][n % 3]);
+    all += sight_[entry] == Sight::kAll;
+    nothing += sight_[entry] == Sight::kNothing;
   }
   const double middle_u = (wide / 2) / double(wide), middle_v = (high / 2) / double(high);
   const auto along = [](double a, double b, double t) { return a + t * (b - a); };
@@ -122,12 +173,13 @@ Column Pointwise::column(std::uint32_t q) {
   out.first = reached.first;
   out.k.assign(reached.count, 0.0f);
   if (blocks_.blocks.empty() || mesh_.emits(q)) {
-    for (std::uint32_t v = reached.first; v < reached.end(); ++v)
-      out.k[v - out.first] = static_cast<float>(factor(v, q));
+    wanted_.resize(reached.count);
+    std::iota(wanted_.begin(), wanted_.end(), reached.first);
+    fillOneByOne(wanted_, q, out);
   } else {
     sight_.assign(reached.count, Sight::kUnknown);
     for (const ReceiverBlock& block : blocks_.blocks) fillBlock(block, {0, block.nu, 0, block.nv}, q, out);
-    for (const std::uint32_t v : blocks_.rest) out.k[v - out.first] = static_cast<float>(factor(v, q));
+    fillOneByOne(blocks_.rest, q, out);
   }
   double received = 0;
   for (std::uint32_t v = reached.first; v < reached.end(); ++v)

@@ -6,7 +6,9 @@
 // whose entries are computed one by one.
 #pragma once
 
+#include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,11 @@ class Visibility {
   /// The share of the patch's Lambert factor that the point sees, 0 to 1; called only where the factor
   /// without occlusion is above 0.
   virtual double seen(const ReceiverView& from, std::uint32_t q) = 0;
+  /// The same from several points, one share for each.
+  virtual void seenFrom(std::span<const ReceiverView* const> points, std::uint32_t q,
+                        std::span<double> shares) {
+    for (std::size_t k = 0; k < points.size(); ++k) shares[k] = seen(*points[k], q);
+  }
   /// The share of patch q's light that meets no surface.
   virtual double escaping(std::uint32_t q) = 0;
   // See FormFactorMethod.
@@ -46,18 +53,28 @@ class Pointwise final : public FormFactorMethod {
  private:
   // How much of a patch a receiver sees.
   enum class Sight : std::uint8_t { kUnknown, kInterpolated, kNothing, kPart, kAll };
-  struct Seen {
-    double k = 0;
-    Sight sight = Sight::kNothing;
-  };
   struct Rectangle {
     std::uint32_t i0, i1, j0, j1;
   };
 
+  // Views that look at a patch together.
+  struct Looks {
+    static constexpr std::size_t kMost = 16;
+    std::array<const ReceiverView*, kMost> views;
+    std::array<std::uint32_t, kMost> numbers;  // the caller's
+    std::array<double, kMost> unoccluded;      // weight times Lambert factor
+    std::size_t count = 0;
+  };
+
   double factor(std::uint32_t v, std::uint32_t q);
-  Seen factor(const ReceiverView& from, std::uint32_t q);
+  double lambert(const ReceiverView& from, std::uint32_t q);
+  template <class F>
+  void look(Looks& looks, const ReceiverView& from, std::uint32_t number, std::uint32_t q, F&& take);
+  template <class F>
+  void decide(Looks& looks, std::uint32_t q, F&& take);
+  void fillOneByOne(std::span<const std::uint32_t> vertices, std::uint32_t q, Column& column);
   void fillBlock(const ReceiverBlock& block, const Rectangle& part, std::uint32_t q, Column& column);
-  double exactly(std::uint32_t v, std::uint32_t q, Column& column);
+  void fillExactly(std::span<const std::uint32_t> vertices, std::uint32_t q, Column& column);
   double escapeOf(std::uint32_t q);
   double escapeAlongRows(std::uint32_t q);
   void groupShares();
@@ -66,7 +83,12 @@ class Pointwise final : public FormFactorMethod {
   std::shared_ptr<const PatchPolygons> polygons_;
   std::unique_ptr<Visibility> visibility_;
   std::shared_ptr<const Receivers> receivers_;
+  // One per patch: without occlusion all factors are exact; beside what rays leave open those of patches that
+  // emit little or nothing need not be.
+  std::vector<char> exact_;
   std::vector<glm::dvec3> scratch_;
+  std::vector<std::uint32_t> wanted_;
+  std::vector<double> sums_;
   std::vector<PatchShare> by_patch_;
   std::vector<std::uint32_t> share_start_;
   ReceiverBlocks blocks_;           // where columns are interpolated

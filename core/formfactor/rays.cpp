@@ -6,13 +6,14 @@
 // horizon are left out. Patches with a good share of the scene's emission are looked at from end to end:
 // where sixteen rays agree the exact factor counts whole or not at all, else it is the penumbra, with 64
 // rays. Of an emitter that is wider than it is away, most samples lie where it hardly counts: where one is
-// hidden it is taken apart until each part is small as seen from the point or brings little, and each part
-// has a ray and an exact factor of its own.
+// hidden it is taken apart until each part is all visible, all hidden, small as seen from the point or brings
+// little, and each part has five rays and an exact factor of its own.
 //
 // Known error: occluders that slip between the rays; a shadow's edge lies where the sample of a patch says,
 // a radius of the patch beside the truth at most.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -33,10 +34,14 @@ namespace {
 // Radius of a patch over its distance, above which it takes 4 or 16 rays.
 constexpr double kWide = 0.4, kVeryWide = 1.2;
 // An emitter is taken apart from where its radius is so many times the distance to its plane, and it is
-// nearer than so many radii. Parts are as wide, or bring such a share of it, and are so many at most.
+// nearer than so many radii.
 constexpr double kFlat = 1, kNear = 2;
-constexpr double kPartWidth = 0.12, kPartShare = 0.001;
+// Parts are looked at from where they are so wide, and taken apart further where only some of what is looked
+// at is visible, until they are so narrow, bring such a share of the whole or have been halved so many times.
+constexpr double kPartLook = 0.4, kPartWidth = 0.12, kPartShare = 0.001;
 constexpr int kMostHalvings = 16;
+// What is looked at: the middle, and points this share of the way there from the corners.
+constexpr double kPartInset = 0.1;
 // The levels of samples: 1, 4, 16, 64.
 constexpr std::size_t kLevels = 4;
 // How far from the corner towards the middle a ray goes that looks for a corner.
@@ -55,17 +60,40 @@ class ShadowRays final : public Visibility {
       large_.push_back(mesh.emits(q) && share.isLarge(mesh.sides[mesh.patch_side[q]], mesh.patch_area[q]));
   }
 
+  // Where one ray decides, those to all points begin in the middle of the patch and go together.
+  void seenFrom(std::span<const ReceiverView* const> points, std::uint32_t q,
+                std::span<double> shares) override {
+    if (large_[q]) return Visibility::seenFrom(points, q, shares);
+    const glm::dvec3& normal = mesh_.sides[mesh_.patch_side[q]].normal;
+    const glm::dvec3 sample = samplesOf(q, 0)[0], start = rays_.rays().lifted(sample, normal);
+    std::array<glm::dvec3, SceneRays::kTogether> ends;
+    std::array<std::size_t, SceneRays::kTogether> number;
+    std::size_t count = 0;
+    const auto decide = [&] {
+      const std::uint32_t hidden = occluded(start, {ends.data(), count});
+      for (std::size_t k = 0; k < count; ++k) shares[number[k]] = hidden >> k & 1 ? 0 : 1;
+      count = 0;
+    };
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const ReceiverView& from = *points[k];
+      const glm::dvec3 to = sample - from.position;
+      if (isWideEmitter(from, q) || levelFor(from, q) > 0 || glm::dot(to, from.normal) <= 0 ||
+          glm::dot(to, normal) >= 0) {
+        shares[k] = seen(from, q);
+        continue;
+      }
+      number[count] = k;
+      ends[count++] = rays_.rays().lifted(from.position, from.normal);
+      if (count == ends.size()) decide();
+    }
+    decide();
+  }
+
   double seen(const ReceiverView& from, std::uint32_t q) override {
     const glm::dvec3 eye = rays_.rays().lifted(from.position, from.normal);
-    const glm::dvec3 to = polygons_->middle(q) - from.position;
-    const double distance = glm::length(to), radius = polygons_->radius(q);
-    if (mesh_.emits(q) && distance < kNear * radius &&
-        glm::dot(from.position - polygons_->parts(q)[0].centre(), mesh_.sides[mesh_.patch_side[q]].normal) <
-            radius / kFlat)
-      return seenInParts(from, eye, q);
+    if (isWideEmitter(from, q)) return seenInParts(from, eye, q);
     if (large_[q]) return emitterSeen(from, eye, q);
-    const double width = radius / std::max(distance, 1e-300);
-    return share(from, eye, q, width > kVeryWide ? 2 : width > kWide ? 1 : 0);
+    return share(from, eye, q, levelFor(from, q));
   }
 
   double escaping(std::uint32_t q) override {
@@ -79,13 +107,27 @@ class ShadowRays final : public Visibility {
         const double u = (i + draw()) / kEscapeStrata, v = (j + draw()) / kEscapeStrata;
         const glm::dvec3 direction = cosineDirection(side.normal, u, v);
         const std::size_t k = static_cast<std::size_t>(7 * i + j) % from.size();
-        missed += !rays_.intersect(rays_.rays().lifted(from[k], side.normal), direction);
+        missed += !rays_.rays().meetsAny(rays_.rays().lifted(from[k], side.normal), direction);
       }
     }
     return missed / double{kEscapeStrata * kEscapeStrata};
   }
 
  private:
+  // Whether so much of it is seen at a flat angle that samples do not stand for it.
+  bool isWideEmitter(const ReceiverView& from, std::uint32_t q) const {
+    const double radius = polygons_->radius(q);
+    return mesh_.emits(q) && glm::length(polygons_->middle(q) - from.position) < kNear * radius &&
+           glm::dot(from.position - polygons_->parts(q)[0].centre(),
+                    mesh_.sides[mesh_.patch_side[q]].normal) < radius / kFlat;
+  }
+
+  std::size_t levelFor(const ReceiverView& from, std::uint32_t q) const {
+    const double width =
+        polygons_->radius(q) / std::max(glm::length(polygons_->middle(q) - from.position), 1e-300);
+    return width > kVeryWide ? 2 : width > kWide ? 1 : 0;
+  }
+
   // The share that samples of this level find visible.
   double share(const ReceiverView& from, const glm::dvec3& eye, std::uint32_t q, std::size_t level) {
     const glm::dvec3& normal = mesh_.sides[mesh_.patch_side[q]].normal;
@@ -154,29 +196,43 @@ class ShadowRays final : public Visibility {
     const glm::dvec3 centre = (ring[0] + ring[1] + ring[2] + ring[3]) / 4.0;
     double radius = 0;
     for (const glm::dvec3& corner : ring) radius = std::max(radius, glm::length(corner - centre));
-    const bool wide = radius > kPartWidth * glm::length(centre - from.position);
-    if (wide && factor > negligible && halvings < kMostHalvings) {
-      // Halved across the longer pair of sides.
-      const bool along = glm::length(ring[1] - ring[0]) + glm::length(ring[2] - ring[3]) >
-                         glm::length(ring[3] - ring[0]) + glm::length(ring[2] - ring[1]);
-      const std::array<glm::dvec3, 4> turned =
-          along ? ring : std::array<glm::dvec3, 4>{ring[1], ring[2], ring[3], ring[0]};
-      const glm::dvec3 a = (turned[0] + turned[1]) / 2.0, b = (turned[2] + turned[3]) / 2.0;
-      return visiblePart(from, eye, q, {turned[0], a, b, turned[3]}, negligible, halvings + 1) +
-             visiblePart(from, eye, q, {a, turned[1], turned[2], b}, negligible, halvings + 1);
+    const double width = radius / std::max(glm::length(centre - from.position), 1e-300);
+    const bool divisible = factor > negligible && halvings < kMostHalvings;
+    if (width <= kPartLook || !divisible) {
+      const double visible = visibleShare(from, eye, q, ring, centre);
+      if (visible == 0 || visible == 1 || width <= kPartWidth || !divisible) return factor * visible;
     }
-    // Towards the highest corner where the centre lies below the horizon.
-    glm::dvec3 at = centre;
+    // Halved across the longer pair of sides.
+    const bool along = glm::length(ring[1] - ring[0]) + glm::length(ring[2] - ring[3]) >
+                       glm::length(ring[3] - ring[0]) + glm::length(ring[2] - ring[1]);
+    const std::array<glm::dvec3, 4> turned =
+        along ? ring : std::array<glm::dvec3, 4>{ring[1], ring[2], ring[3], ring[0]};
+    const glm::dvec3 a = (turned[0] + turned[1]) / 2.0, b = (turned[2] + turned[3]) / 2.0;
+    return visiblePart(from, eye, q, {turned[0], a, b, turned[3]}, negligible, halvings + 1) +
+           visiblePart(from, eye, q, {a, turned[1], turned[2], b}, negligible, halvings + 1);
+  }
+
+  // By rays to its middle and near its corners, as far as they are above the horizon; else to its highest
+  // corner.
+  double visibleShare(const ReceiverView& from, const glm::dvec3& eye, std::uint32_t q,
+                      const std::array<glm::dvec3, 4>& ring, const glm::dvec3& centre) const {
+    const glm::dvec3& normal = mesh_.sides[mesh_.patch_side[q]].normal;
     const auto height = [&](const glm::dvec3& p) { return glm::dot(p - from.position, from.normal); };
-    if (height(at) <= 0) {
+    std::array<glm::dvec3, 5> ends;
+    std::size_t count = 0;
+    const auto add = [&](const glm::dvec3& at) {
+      if (height(at) > 0) ends[count++] = rays_.rays().lifted(at, normal);
+    };
+    add(centre);
+    for (const glm::dvec3& corner : ring) add(glm::mix(corner, centre, kPartInset));
+    if (count == 0) {
       const glm::dvec3& top = *std::max_element(
           ring.begin(), ring.end(), [&](const auto& x, const auto& y) { return height(x) < height(y); });
       if (height(top) <= kTold * rays_.rays().lift()) return 0;
-      at = glm::mix(centre, top, (height(top) / 2 - height(centre)) / (height(top) - height(centre)));
+      add(glm::mix(centre, top, (height(top) / 2 - height(centre)) / (height(top) - height(centre))));
     }
-    return rays_.rays().occluded(eye, rays_.rays().lifted(at, mesh_.sides[mesh_.patch_side[q]].normal))
-               ? 0
-               : factor;
+    const std::uint32_t hidden = occluded(eye, {ends.data(), count});
+    return 1 - std::popcount(hidden) / static_cast<double>(count);
   }
 
   const std::vector<glm::dvec3>& samplesOf(std::uint32_t q, std::size_t level) {

@@ -58,6 +58,37 @@ struct SceneRays::Impl {
     return ray.tfar < 0;
   }
 
+  // Which of the segments from `a` to `b` meet anything, as bits: `trace` takes kMost rays together.
+  template <std::size_t kMost, class Rays, class Trace>
+  std::uint32_t occluded(Trace trace, const glm::dvec3& a, std::span<const glm::dvec3> b) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    Rays rays;
+    alignas(64) int valid[kMost];
+    const glm::dvec3 origin = scale * a;
+    for (std::size_t k = 0; k < kMost; ++k) {
+      const glm::dvec3 way = k < b.size() ? scale * (b[k] - a) : glm::dvec3(0.0);
+      valid[k] = k < b.size() ? -1 : 0;
+      rays.org_x[k] = static_cast<float>(origin.x);
+      rays.org_y[k] = static_cast<float>(origin.y);
+      rays.org_z[k] = static_cast<float>(origin.z);
+      rays.dir_x[k] = static_cast<float>(way.x);
+      rays.dir_y[k] = static_cast<float>(way.y);
+      rays.dir_z[k] = static_cast<float>(way.z);
+      rays.tnear[k] = 0;
+      rays.tfar[k] = 1;
+      rays.time[k] = 0;
+      rays.mask[k] = ~0u;
+      rays.id[k] = 0;
+      rays.flags[k] = 0;
+    }
+    trace(valid, scene, &context, &rays);
+    std::uint32_t out = 0;
+    for (std::size_t k = 0; k < b.size(); ++k) out |= static_cast<std::uint32_t>(rays.tfar[k] < 0) << k;
+    return out;
+  }
+
   void build(std::span<const glm::vec3> positions, std::span<const std::uint32_t> corners) {
     device = rtcNewDevice("threads=1");
     if (!device)
@@ -138,32 +169,9 @@ bool SceneRays::occluded(const glm::dvec3& a, const glm::dvec3& b) const {
 
 std::uint32_t SceneRays::occluded(const glm::dvec3& a, std::span<const glm::dvec3> b) const {
   static_assert(kTogether == 16);
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  RTCRay16 rays;
-  alignas(64) int valid[kTogether];
-  const glm::dvec3 origin = impl_->scale * a;
-  for (std::size_t k = 0; k < kTogether; ++k) {
-    const glm::dvec3 way = k < b.size() ? impl_->scale * (b[k] - a) : glm::dvec3(0.0);
-    valid[k] = k < b.size() ? -1 : 0;
-    rays.org_x[k] = static_cast<float>(origin.x);
-    rays.org_y[k] = static_cast<float>(origin.y);
-    rays.org_z[k] = static_cast<float>(origin.z);
-    rays.dir_x[k] = static_cast<float>(way.x);
-    rays.dir_y[k] = static_cast<float>(way.y);
-    rays.dir_z[k] = static_cast<float>(way.z);
-    rays.tnear[k] = 0;
-    rays.tfar[k] = 1;
-    rays.time[k] = 0;
-    rays.mask[k] = ~0u;
-    rays.id[k] = 0;
-    rays.flags[k] = 0;
-  }
-  rtcOccluded16(valid, impl_->scene, &context, &rays);
-  std::uint32_t out = 0;
-  for (std::size_t k = 0; k < b.size(); ++k) out |= static_cast<std::uint32_t>(rays.tfar[k] < 0) << k;
-  return out;
+  if (b.size() <= 4) return impl_->occluded<4, RTCRay4>(rtcOccluded4, a, b);
+  if (b.size() <= 8) return impl_->occluded<8, RTCRay8>(rtcOccluded8, a, b);
+  return impl_->occluded<16, RTCRay16>(rtcOccluded16, a, b);
 }
 
 bool SceneRays::meetsAny(const glm::dvec3& origin, const glm::dvec3& direction) const {
