@@ -53,6 +53,7 @@ class SceneRun {
     trace();
     if (!stopped()) solveExactly();
     if (!stopped()) firstRuns();
+    if (!stopped()) runBounded();
     if (!stopped()) repeats();
     if (!stopped() && request_.pictures) takePictures();
     CurveRecord& r = out_.record;
@@ -144,6 +145,18 @@ class SceneRun {
     judgeReference();
   }
 
+  /// For the plot of bounds: the first curve again, where its form factors were drafts on the way.
+  void runBounded() {
+    const auto& curves = out_.record.curves;
+    const auto first =
+        std::find_if(curves.begin(), curves.end(), [](const ModeCurve& c) { return c.points.size() > 1; });
+    if (first == curves.end() || !first->drafts) return;
+    ModeCurve curve =
+        runs_.runBounded(first->mode, out_.record.exact.radiosity, kRunShare * request_.max_seconds,
+                         watch(2, 1, 1, first->mode + " without drafts, for its bounds"));
+    if (!stopped() && !curve.failure) out_.record.bounded = std::move(curve);
+  }
+
   void judgeReference() {
     std::string why;
     for (const ModeCurve& curve : out_.record.curves) {
@@ -221,6 +234,8 @@ void writeScene(const ReportRequest& request, MeasuredScene& scene, bool draw) {
                 "another --out");
   }
   writeWholeFile(folder / "curves.csv", curvesCsv(record));
+  if (const std::string bounds = boundsCsv(record); !bounds.empty())
+    writeWholeFile(folder / "bounds.csv", bounds);
   writeWholeFile(folder / "table.csv", tableCsv(record));
   writeWholeFile(folder / "report.json", curvesJson(record));
   std::string failed;

@@ -1,5 +1,5 @@
-// Light straight from emitters at any point: the exact Lambert factor of each emitting patch times the share
-// of it that shadow rays find visible.
+// Light straight from emitters at any point: the Lambert factor of each emitting patch times the share of it
+// that shadow rays find visible.
 #pragma once
 
 #include <memory>

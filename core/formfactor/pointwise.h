@@ -1,5 +1,5 @@
-// Form factors at points: K_vq is the exact Lambert factor of receiver point v and patch q times the share of
-// the patch that v sees, whoever finds that out.
+// Form factors at points: K_vq is the Lambert factor of receiver point v and patch q (exact where q emits
+// much, else FactorPolygon::quick) times the share of the patch that v sees, whoever finds that out.
 //
 // On a refined mesh columns of patches that do not emit are interpolated over blocks of receivers
 // (receiver_blocks.h) wherever nine entries are those of a smooth function: within 0.04 % (RMS) of rows,

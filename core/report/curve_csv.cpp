@@ -45,15 +45,19 @@ std::vector<ErrorMeasure> measuresOf(const CurveRecord& record) {
 
 ErrorMeasure mainMeasure(const CurveRecord& record) { return measuresOf(record).front(); }
 
-std::string curvesCsv(const CurveRecord& record) {
+namespace {
+
+std::string csvOf(std::span<const ModeCurve> curves) {
   std::string text =
       "# seconds: wall [s]; cpu_seconds: busy time, median over the repeats [s]; errors, bounds and unshot: "
       "fractions of 1;\n"
-      "# solver_error, _upper, _lower: RMS; solver_total_error, _upper: sums\n"
+      "# solver_error, _upper, _lower: RMS; solver_total_error, _upper: sums; no bounds while form factors "
+      "are "
+      "drafts\n"
       "# rows: form-factor columns and rows computed; total_error: against the path-traced reference\n"
       "mode,point,step,shots,rows,cpu_seconds,cpu_seconds_min,cpu_seconds_max,seconds,unshot_fraction,"
       "solver_error,solver_lower,solver_upper,solver_total_error,solver_total_upper,total_error\n";
-  for (const ModeCurve& curve : record.curves) {
+  for (const ModeCurve& curve : curves) {
     for (std::size_t k = 0; k < curve.points.size(); ++k) {
       const CurvePoint& p = curve.points[k];
       text +=
@@ -64,6 +68,14 @@ std::string curvesCsv(const CurveRecord& record) {
     }
   }
   return text;
+}
+
+}  // namespace
+
+std::string curvesCsv(const CurveRecord& record) { return csvOf(record.curves); }
+
+std::string boundsCsv(const CurveRecord& record) {
+  return record.bounded.points.empty() ? std::string() : csvOf({&record.bounded, 1});
 }
 
 std::string tableCsv(const CurveRecord& record) {

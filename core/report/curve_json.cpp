@@ -107,7 +107,8 @@ std::string curvesJson(const CurveRecord& record) {
       {"notes", record.notes},
       {"interrupted", record.interrupted},
       {"peak_memory_bytes", record.peak_memory_bytes},
-      {"modes", curves}};
+      {"modes", curves},
+      {"without_drafts", record.bounded.points.empty() ? Json(nullptr) : jsonOf(record.bounded, record)}};
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,5 +1,5 @@
-// Scripts for gnuplot. They name nothing but curves.csv beside them, so that a folder can be moved, and its
-// plots changed by hand.
+// Scripts for gnuplot. They name nothing but curves.csv and bounds.csv beside them, so that a folder can be
+// moved, and its plots changed by hand.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,9 +41,9 @@ std::string quoted(const std::string& text) {
 }
 
 /// An error of exactly 0 is drawn as next to none, so that a curve shows its drop to it on a log axis.
-std::string series(std::string_view mode, const Axis& x, const char* y) {
-  return "'curves.csv' using (strcol('mode') eq '" + std::string(mode) + "' ? column('" + x.column +
-         "') : NaN):(100*(column('" + y + "')+1e-12))";
+std::string series(std::string_view mode, const Axis& x, const char* y, const char* file = "curves.csv") {
+  return "'" + std::string(file) + "' using (strcol('mode') eq '" + std::string(mode) + "' ? column('" +
+         x.column + "') : NaN):(100*(column('" + y + "')+1e-12))";
 }
 
 std::string styleOf(std::string_view mode, const char* with, double width, const char* dash) {
@@ -135,7 +135,9 @@ std::optional<CurvePlot> finishPlot(const CurveRecord& record, const char* colum
 }
 
 /// What the program knows of its own error, beside the truth, for one mode.
-CurvePlot boundsPlot(const CurveRecord& record, const ModeCurve& curve) {
+CurvePlot boundsPlot(const CurveRecord& record, const ModeCurve& first) {
+  const bool apart = !record.bounded.points.empty();
+  const ModeCurve& curve = apart ? record.bounded : first;
   CurvePlot plot{"bounds_over_time",
                  "what " + curve.mode + " knows of its own error",
                  "The program does not know the exact solution while it runs; it knows limits that the error "
@@ -143,8 +145,13 @@ CurvePlot boundsPlot(const CurveRecord& record, const ModeCurve& curve) {
                  "every moment; for the total error there is one from the first shot on, for the error point "
                  "by point (RMS) once all rows that matter are known.",
                  {}};
+  if (apart)
+    plot.caption +=
+        " This run had full form factors from the start: while some are drafts, the program bounds the error "
+        "of the system that it has, which is not the one that the truth is known of.";
   const auto line = [&](const char* column, const std::string& style, const char* title) {
-    return series(curve.mode, kTime, column) + " with lines " + style + " title '" + title + "'";
+    return series(curve.mode, kTime, column, apart ? "bounds.csv" : "curves.csv") + " with lines " + style +
+           " title '" + title + "'";
   };
   std::vector<std::string> lines;
   const std::string blue = "lc rgb '#0072b2' ", red = "lc rgb '#d55e00' ";

@@ -36,6 +36,8 @@ struct CurveRecord {
   ExactSolution exact;
   std::optional<ReferenceRecord> reference;
   std::vector<ModeCurve> curves;  ///< one per mode asked for, as far as the report came
+  /// The first of them again, without drafts of form factors; no points where it had none.
+  ModeCurve bounded;
   std::vector<std::string> notes;
   std::size_t peak_memory_bytes = 0;
   bool interrupted = false;
@@ -58,12 +60,14 @@ ErrorMeasure mainMeasure(const CurveRecord& record);
 
 /// One line per mode and point. A comment line gives the units.
 std::string curvesCsv(const CurveRecord& record);
+/// The same of `bounded`; empty where that has no points.
+std::string boundsCsv(const CurveRecord& record);
 /// One line per mode, error and level: what it cost to get there, empty where it was not reached.
 std::string tableCsv(const CurveRecord& record);
 /// The same and more as JSON (curve_json.cpp).
 std::string curvesJson(const CurveRecord& record);
 
-/// A plot of the report: NAME.gp makes NAME.svg and NAME.png of curves.csv in its own folder.
+/// A plot of the report: NAME.gp makes NAME.svg and NAME.png of curves.csv, or bounds.csv, in its own folder.
 struct CurvePlot {
   std::string name, title, caption, script;
 };

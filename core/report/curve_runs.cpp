@@ -115,6 +115,7 @@ ExactSolution CurveRuns::solveExactly(double max_seconds, const RunWatch& watch)
     exact.why_not = exact.mode + " left " + percentText(exact.unshot_fraction) + " unshot after " +
                     durationText(exact.seconds);
   }
+  if (exact.radiosity.empty()) options_.draft_first = false;
   return exact;
 }
 
@@ -128,6 +129,7 @@ class PointPicker {
       : curve_(curve), exact_(exact), total_error_(total_error) {}
 
   void see(const Solve& solve, std::uint64_t step, double cpu, double wall) {
+    curve_.drafts = curve_.drafts || solve.measures().drafts > 0;
     CurvePoint now = pointOf(solve, step, cpu, wall);
     const bool ended = solve.state() != SolveState::kRunning;
     if (curve_.points.empty() || ended || isFurther(now, curve_.points.back())) {
@@ -158,7 +160,7 @@ class PointPicker {
     point.cpu_seconds = cpu;
     point.seconds = wall;
     point.unshot_fraction = m.unshot_fraction;
-    point.bounds = m.bounds;
+    if (m.drafts == 0) point.bounds = m.bounds;
     if (!exact_.empty()) point.solver = solverError(solve.mesh(), solve.patchRadiosity(), exact_);
     return point;
   }
@@ -247,6 +249,14 @@ ModeCurve CurveRuns::run(const std::string& mode, std::span<const glm::dvec3> ex
   }
   if (curve.failure && curve.stopped_by.empty()) curve.stopped_by = curve.failure->what();
   takeMedians(curve);
+  return curve;
+}
+
+ModeCurve CurveRuns::runBounded(const std::string& mode, std::span<const glm::dvec3> exact,
+                                double max_seconds, const RunWatch& watch) {
+  const bool drafts = std::exchange(options_.draft_first, false);
+  ModeCurve curve = run(mode, exact, max_seconds, {}, watch);
+  options_.draft_first = drafts;
   return curve;
 }
 

@@ -43,7 +43,8 @@ class CurveRuns {
   CurveRuns(const Scene& scene, SolveOptions options, std::function<gl::Context&()> gl);
 
   /// By `direct` where that is quick, else by `gmres`. Takes `max_seconds` at most (wall time). Throws what a
-  /// Solve throws, kInput where the scene has no light or no finite solution.
+  /// Solve throws, kInput where the scene has no light or no finite solution. Where it finds none, runs are
+  /// without drafts: bounds stand in its place.
   ExactSolution solveExactly(double max_seconds, const RunWatch& watch);
 
   /// A first run of the mode, with its errors: the points lie where error, time, rows or shots have changed
@@ -52,6 +53,10 @@ class CurveRuns {
   /// curve.
   ModeCurve run(const std::string& mode, std::span<const glm::dvec3> exact, double max_seconds,
                 const std::function<TotalError(const Solve&)>& total_error, const RunWatch& watch);
+  /// The same without drafts of form factors, so that bounds are of the system that `exact` solves from the
+  /// first shot on; no total errors.
+  ModeCurve runBounded(const std::string& mode, std::span<const glm::dvec3> exact, double max_seconds,
+                       const RunWatch& watch);
   /// One more run of the same, for its times: form factors are measured anew in each round (measureAnew of
   /// `columns`). An incomplete one adds nothing.
   void repeat(ModeCurve& curve, const RunWatch& watch);

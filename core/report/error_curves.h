@@ -38,6 +38,7 @@ struct CurvePoint {
   double cpu_seconds_min = 0, cpu_seconds_max = 0;
   double seconds = 0;  ///< wall time: median over the repeats
   double unshot_fraction = 1;
+  /// Nothing while form factors are drafts: bounds are of the system at hand, errors of that of full ones.
   SolverBounds bounds;
   std::optional<SolverError> solver;  ///< where the exact solution is at hand
   std::optional<double> total_error;  ///< nRMSE against a reference, where it was measured at this point
@@ -54,6 +55,7 @@ struct ModeCurve {
   std::vector<CurvePoint> points;
   std::vector<RunTimes> runs;
   std::string stopped_by;
+  bool drafts = false;                ///< whether form factors were drafts on the way
   std::optional<Error> failure;       ///< what ended it
   double form_factor_seconds = 0;     ///< of the busy time at the last point, first run
   std::size_t kept_bytes = 0;         ///< of form factors, at the end

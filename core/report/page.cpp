@@ -226,7 +226,10 @@ std::string sceneHtml(const PageScene& scene) {
     out += "<figcaption>" + escaped(plot.caption) + "</figcaption></figure>\n";
   }
   for (const PictureTable& table : scene.pictures) out += pictureTable(table);
-  return out + paragraph("Data: " + r.folder + "/curves.csv, table.csv, report.json", "faint") +
+  return out +
+         paragraph("Data: " + r.folder + "/curves.csv, " + (r.bounded.points.empty() ? "" : "bounds.csv, ") +
+                       "table.csv, report.json",
+                   "faint") +
          "</section>\n";
 }
 

@@ -14,9 +14,10 @@ constexpr double kLacked = 0.05;
 
 // Share of the solver's work that goes into bounds beyond the passes over patches that each step has anyway.
 constexpr double kShare = 0.05;
-// An operation is one entry of the matrix times a colour, a few nanoseconds. A column of K takes this many to
-// compute (1 to 2 ms; a draft of one picture a quarter of a millisecond), and a shot along one at hand that
-// many for each entry of its patch column (it has as many receivers on a patch, and is summed up on the way).
+// An operation is one entry of the matrix times a colour, some two nanoseconds. A column of K takes this many
+// to compute (1 to 2 ms; a draft of one picture a quarter of a millisecond), and a shot along one at hand
+// that many for each entry of its patch column (it has as many receivers on a patch, and is summed up on the
+// way).
 constexpr double kColumnWork = 300'000, kDraftWork = 50'000, kShotWork = 45;
 // Products of a sharpening: on the way no more than this share of what may be spent pays for, but the fewest;
 // at the end all.

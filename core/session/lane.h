@@ -42,8 +42,8 @@ class Lane {
   /// One step (Solve::step), after which estimates may be made too.
   void step(std::uint64_t most_shots = Solve::kMostAtOnce);
   /// Wall time that bounds and estimates took while it ran, since it last began with nothing shot: less than
-  /// a tenth of measures().seconds, the bounds as often as they come and estimates with what is left.
-  double errorSeconds() const { return error_seconds_; }
+  /// a tenth of measures().seconds, the bounds as often as they come and estimates with a share of their own.
+  double errorSeconds() const { return bound_seconds_ + estimate_seconds_; }
   /// Stops the clocks of the solve until its next step.
   void rest() { solve_->rest(); }
   /// Tells of a solve that has failed, once.
@@ -79,7 +79,7 @@ class Lane {
   bool stale_ = false;            // the solve has gone on since the snapshot
   bool estimates_stale_ = false;  // and since the estimates
   bool places_in_passing_ = false;
-  double error_seconds_ = 0, last_estimate_seconds_ = 0;
+  double bound_seconds_ = 0, estimate_seconds_ = 0, last_estimate_seconds_ = 0;
   bool no_more_places_ = false;                              // the scene has none, or estimating failed
   bool complete_bounces_ = false, no_more_bounces_ = false;  // asked for; working them out failed
 

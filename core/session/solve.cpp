@@ -18,6 +18,8 @@ namespace {
 constexpr double kSolved = 1e-10;
 // Shots taken at once along columns at hand: one for so many before.
 constexpr std::uint64_t kShotsBeforeMore = 200;
+// And no more than go over so many receivers, some milliseconds.
+constexpr std::uint64_t kReceiversAtOnce = 1'000'000;
 
 void checkError(double error) {
   if (error > 0 && error < 1) return;
@@ -193,11 +195,14 @@ void Solve::Impl::refine() {
 // long. A mode that cannot go on ends the solve as failed, with what it has.
 std::optional<std::size_t> Solve::Impl::iterate(std::uint64_t most_shots) {
   if (!mode) mode = options.bounces ? makeBounces(*options.bounces) : mode_row->make();
-  if (options.max_shots) most_shots = std::min(most_shots, *options.max_shots - measures.shots);
+  if (options.max_shots && *options.max_shots > measures.shots)
+    most_shots = std::min(most_shots, *options.max_shots - measures.shots);
   most_shots = std::min(most_shots, measures.shots / kShotsBeforeMore);
+  most_shots =
+      std::min(most_shots, kReceiversAtOnce / std::max<std::uint64_t>(1, transport->receiverCount()));
   const std::uint64_t computed = transport->computed();
+  std::size_t shots = 0;
   try {
-    std::size_t shots = 0;
     for (;;) {
       const std::optional<std::size_t> used = mode->step(*state, *transport);
       if (!used && shots == 0) return std::nullopt;
@@ -207,7 +212,7 @@ std::optional<std::size_t> Solve::Impl::iterate(std::uint64_t most_shots) {
   } catch (const IterationFailure& problem) {
     mode_failed = true;
     fail(problem.kind(), problem.what(), problem.advice());
-    return 0;
+    return shots;
   }
 }
 

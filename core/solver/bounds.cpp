@@ -30,7 +30,7 @@ double least(const glm::dvec3& x) { return std::min({x.x, x.y, x.z}); }
 double sum(const glm::dvec3& x) { return x.x + x.y + x.z; }
 
 // Colours one after the other as their channels. A vector of them is that in memory.
-const double* channels(const std::vector<glm::dvec3>& x) { return &x.front().x; }
+const double* channels(const std::vector<glm::dvec3>& x) { return &x.data()->x; }
 
 // Two patches at a time: six sums side by side, which processors take in pairs or more.
 struct Lanes {
@@ -247,6 +247,7 @@ bool ErrorBounds::refresh() {
   }
   raiseTotal();
   weights_stale_ = true;
+  left_before_all_ = 0;
   bool gains = false;
   for (int k = 0; k < kProductsAtOnce; ++k) {
     gains = !z_.empty() && lowerTotal();
@@ -396,7 +397,9 @@ SolverBounds ErrorBounds::at() {
   out.total_lower = totalLower(sums);
   if (!comparable()) return out;
   double rms = left_before_all_-- > 0 ? rmsBy(best_way_) : kNoBound;
-  if (rms == kNoBound) rms = tryAllWays();
+  // What is near stays as far from the solution as it is, while the state comes nearer.
+  const bool surpassed = best_way_ == Way::kNearby && rms < 2 * nearby_error_;
+  if (rms == kNoBound || surpassed) rms = tryAllWays();
   out.upper = upperOf(rms, sums);
   return out;
 }

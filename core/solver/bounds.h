@@ -11,7 +11,8 @@
 // Per patch, once all columns that matter are known: with v > 0 and w = v - M v > 0, |e| <= (v - w) max |U| /
 // w (comparison; Varga, Matrix Iterative Analysis, 3.5). v is near the solution of (I - M) v = 1: the
 // expected number of patches that light leaving a patch meets, itself included. Powers of M on |U| sharpen
-// it. In the mean square, NormBound bounds it without taking |U|. The smaller counts.
+// it. In the mean square, NormBound bounds it without taking |U|. The smallest counts, as far as it was
+// tried.
 //
 // Errors count on patches without emission of their own (on all, where all emit), weighted by area, over
 // channels.
@@ -107,7 +108,6 @@ class ErrorBounds {
   struct Comparison {
     Field inverse_w;
     glm::dvec3 squares{0.0};  // sum A (v - w)^2 where errors count
-    bool empty() const { return inverse_w.empty(); }
     void set(const Field& v, const Field& w, const ErrorBounds& bounds);
     double rmsAfter(const Field& u, const ErrorBounds& bounds) const;
   };
@@ -124,7 +124,7 @@ class ErrorBounds {
   std::uint64_t compared_version_ = ~std::uint64_t{0};  // of the matrix that w_ belongs to
   Field z_;                                             // empty: no bound
   Field y_;                                             // below z
-  // A z, rounded up, and A y, rounded down, with A as a share of all of it; channels follow each other.
+  // A z, rounded up, and A y, rounded down, with A over the area that counts; channels follow each other.
   std::vector<float> upper_weights_, lower_weights_;
   bool weights_stale_ = true;
   Field v_, w_, spectral_;

@@ -36,6 +36,7 @@ class PatchMatrix {
   std::size_t size() const { return known_.size(); }
   std::size_t knownCount() const { return known_count_; }
   std::size_t bytes() const { return bytes_; }
+  /// Those that a product goes through: with some zeros between others.
   std::size_t entryCount() const { return entry_count_; }
   /// One more at each set().
   std::uint64_t version() const { return version_; }

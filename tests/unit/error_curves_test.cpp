@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "gl/context.h"
 #include "report/curve_record.h"
 #include "report/curve_runs.h"
 #include "report/page.h"
@@ -227,6 +228,40 @@ INSTANTIATE_TEST_SUITE_P(Modes, Curves, testing::ValuesIn(modeKeys()), [](const 
   for (const char c : row.param) name += std::isalpha(static_cast<unsigned char>(c)) ? std::string(1, c) : "";
   return name;
 });
+
+// Drafts of form factors make a system of their own, whose bounds say nothing of the one with full ones.
+TEST(CurveRuns, HaveBoundsOfTheSystemThatErrorsAreOf) {
+  const Scene scene = asset("cornell_box.obj");
+  const auto context = gl::createContext("osmesa");
+  context->makeCurrent();
+  SolveOptions options = closedForm(1e-3, 600);
+  options.form_factors = "hemicube";
+  CurveRuns runs(scene, options, [&]() -> gl::Context& { return *context; });
+  const ExactSolution exact = runs.solveExactly(60, goOn);
+  ASSERT_FALSE(exact.radiosity.empty()) << exact.why_not;
+  const auto bounded = [](const ModeCurve& curve) {
+    std::size_t count = 0;
+    for (const CurvePoint& p : curve.points) {
+      // Form factors in single precision.
+      const double tolerance = 1e-5 * p.solver->nrmse + 1e-7;
+      EXPECT_LE(p.solver->total, p.bounds.total_upper + tolerance);
+      EXPECT_LE(p.solver->nrmse, p.bounds.upper + tolerance);
+      EXPECT_GE(p.solver->nrmse, p.bounds.lower - tolerance);
+      count += p.bounds.total_upper < kNoBound;
+    }
+    return count;
+  };
+  const ModeCurve with_drafts = runs.run("southwell", exact.radiosity, 60, {}, goOn);
+  ASSERT_FALSE(with_drafts.failure);
+  EXPECT_TRUE(with_drafts.drafts);
+  EXPECT_LT(bounded(with_drafts), with_drafts.points.size() / 2);
+  EXPECT_LT(with_drafts.points.back().bounds.upper, 1e-3);
+  const ModeCurve without = runs.runBounded("southwell", exact.radiosity, 60, goOn);
+  ASSERT_FALSE(without.failure);
+  EXPECT_FALSE(without.drafts);
+  EXPECT_GE(bounded(without), without.points.size() - 1);
+  EXPECT_TRUE(runs.run("southwell", exact.radiosity, 60, {}, goOn).drafts);
+}
 
 TEST(CurveRuns, WithoutLightThereIsNothingToMeasure) {
   Scene scene = asset("furnace.obj");

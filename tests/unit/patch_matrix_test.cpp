@@ -39,7 +39,7 @@ struct Patches {
 
 // Columns with gaps of every length, one of them replaced, against sums over a full table.
 TEST(PatchMatrix, MultipliesWhatItWasGiven) {
-  constexpr std::uint32_t kPatches = 41;
+  constexpr std::uint32_t kPatches = 400;
   std::vector<double> area(kPatches);
   for (std::uint32_t p = 0; p < kPatches; ++p) area[p] = 1 + 0.1 * (p % 7);
   Patches patches(area);
@@ -49,8 +49,9 @@ TEST(PatchMatrix, MultipliesWhatItWasGiven) {
     for (std::uint32_t q = 0; q < kPatches; ++q) {
       if (q % 5 == 4 || (round == 1 && q % 3 != 0)) continue;  // some stay unknown, some are set again
       factors[q].assign(kPatches, 0.0f);
-      for (std::uint32_t p = q % 4; p < kPatches; p += 1 + (p * p + q + round) % 6)
-        factors[q][p] = 0.001f * static_cast<float>(1 + p + 2 * q + round);
+      // Few of them in some columns.
+      for (std::uint32_t p = q % 4; p < kPatches; p += 1 + (p * p + q + round) % (q % 2 ? 6 : 97))
+        factors[q][p] = 0.001f * static_cast<float>(1 + (p + 2 * q + round) % 50);
       known += round == 0;
       patches.set(q, factors[q]);
     }
