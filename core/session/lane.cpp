@@ -14,6 +14,8 @@ namespace {
 constexpr std::size_t kPlacesInPassing = 128, kPlacesAtRest = 512, kPlacesAtOnce = 64;
 // Share of the solver's time that estimates may take on the way, beside bounds (3 to 8 %).
 constexpr double kEstimateShare = 0.015;
+// What the first is taken to cost, of the time that meshing took: it looks at the whole mesh.
+constexpr double kFirstEstimate = 0.25;
 // An estimate passes over the whole mesh: on a larger one it would be felt as a pause.
 constexpr std::size_t kMostElementsInPassing = 200'000;
 
@@ -170,7 +172,9 @@ bool Lane::workOutBounces(double interval) {
 
 void Lane::estimateInPassing() {
   if (!running() || facts_->elements > kMostElementsInPassing) return;
-  if (estimate_seconds_ + last_estimate_seconds_ > kEstimateShare * solve_->measures().seconds) return;
+  const double expected =
+      last_estimate_seconds_ > 0 ? last_estimate_seconds_ : kFirstEstimate * facts_->mesh_seconds;
+  if (estimate_seconds_ + expected > kEstimateShare * solve_->measures().seconds) return;
   const double began = wallSeconds();
   places_in_passing_ = true;
   estimateFrom(solve_->places() < kPlacesInPassing ? kPlacesInPassing / 8 : 0);
