@@ -149,7 +149,7 @@ TEST(NarrowGap, AboveALampHasItsLight) {
 
 // A lamp of 100 m half a metre above an open box of 1 m: the part of it that is seen from the box is a
 // ten-thousandth of it. Against path tracing on all inner walls. (Looked at evenly over its area it left them
-// a third too dark; 2.8 % are measured at 300 points.) The estimate, whose looks face the same lamp, knows.
+// a third too dark; 2.3 % are measured at 300 points.) The estimate, whose looks face the same lamp, knows.
 TEST(HugeLamp, LightsABoxThroughItsOpening) {
   SceneBuilder b;
   const auto wall = b.material("wall", glm::dvec3(0.5)),
