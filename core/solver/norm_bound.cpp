@@ -6,14 +6,14 @@
 #include <glm/exponential.hpp>
 #include <limits>
 
+#include "solver/patch_sums.h"
+
 namespace unshot {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 // Times 0 it is 0, unlike infinity.
 constexpr double kHuge = 1e300;
-// The matrix is held in single precision.
-constexpr double kRounding = 4 * 6e-8;
 constexpr int kStepsAtOnce = 6;
 // So much of x stays, that it never comes near 0 where little light goes.
 constexpr double kStays = 0.1;
