@@ -24,7 +24,7 @@ constexpr double kColumnWork = 300'000, kDraftWork = 50'000, kShotWork = 45;
 constexpr int kFewestProducts = 2, kMostProducts = 8;
 constexpr double kSpent = 0.25;
 // What a refresh costs in products, before and after all columns are known.
-constexpr double kTotalRefresh = 5, kWholeRefresh = 25;
+constexpr double kTotalRefresh = 5, kWholeRefresh = 18;
 constexpr int kMostRefreshes = 50;
 // Between refreshes for nothing but their gain.
 constexpr int kSharpenings = 3;

@@ -13,7 +13,7 @@ namespace {
 // Errors are estimated from so many places while the solve runs and when it rests.
 constexpr std::size_t kPlacesInPassing = 128, kPlacesAtRest = 512, kPlacesAtOnce = 64;
 // Share of the solver's time that estimates may take on the way, beside bounds (3 to 8 %).
-constexpr double kEstimateShare = 0.015;
+constexpr double kEstimateShare = 0.01;
 // What the first is taken to cost, of the time that meshing took: it looks at the whole mesh.
 constexpr double kFirstEstimate = 0.25;
 // An estimate passes over the whole mesh: on a larger one it would be felt as a pause.

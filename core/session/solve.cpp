@@ -20,6 +20,8 @@ constexpr double kSolved = 1e-10;
 constexpr std::uint64_t kShotsBeforeMore = 200;
 // And no more than go over so many receivers, some milliseconds.
 constexpr std::uint64_t kReceiversAtOnce = 1'000'000;
+// Of them so many along columns that have to be computed.
+constexpr std::uint64_t kColumnsAtOnce = 2;
 
 void checkError(double error) {
   if (error > 0 && error < 1) return;
@@ -191,8 +193,8 @@ void Solve::Impl::refine() {
   drafts.step(*transport, *state);
 }
 
-// A step of the mode, or some where each is a shot along a column at hand: looking at what it leaves takes as
-// long. A mode that cannot go on ends the solve as failed, with what it has.
+// A step of the mode, or some where each is a shot along a column at hand or soon computed: looking at what
+// it leaves takes as long. A mode that cannot go on ends the solve as failed, with what it has.
 std::optional<std::size_t> Solve::Impl::iterate(std::uint64_t most_shots) {
   if (!mode) mode = options.bounces ? makeBounces(*options.bounces) : mode_row->make();
   if (options.max_shots && *options.max_shots > measures.shots)
@@ -207,7 +209,8 @@ std::optional<std::size_t> Solve::Impl::iterate(std::uint64_t most_shots) {
       const std::optional<std::size_t> used = mode->step(*state, *transport);
       if (!used && shots == 0) return std::nullopt;
       shots += used.value_or(0);
-      if (used != 1 || shots >= most_shots || transport->computed() != computed) return shots;
+      if (used != 1 || shots >= most_shots || transport->computed() >= computed + kColumnsAtOnce)
+        return shots;
     }
   } catch (const IterationFailure& problem) {
     mode_failed = true;

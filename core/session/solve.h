@@ -89,10 +89,10 @@ class Solve {
   Solve& operator=(const Solve&) = delete;
 
   /// One step of the iteration mode (a shot, or a part of a sweep), or one draft replaced. Where `most_shots`
-  /// allows it, several shots along columns at hand, which are soon done: up to one for each 200 before and
-  /// fewer of many receivers, so that measures and limits are looked at less often; the last of them may be
-  /// one that takes longer. Does nothing once state() is not kRunning. A step takes milliseconds to a few
-  /// tens of them, so that limits and interruption act soon.
+  /// allows it, several shots, two of them at most along columns that have to be computed: up to one for each
+  /// 200 before and fewer of many receivers, so that measures and limits are looked at less often. Does
+  /// nothing once state() is not kRunning. A step takes milliseconds to a few tens of them, so that limits
+  /// and interruption act soon.
   void step(std::uint64_t most_shots = 1);
   static constexpr std::uint64_t kMostAtOnce = 16;
 

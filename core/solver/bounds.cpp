@@ -11,7 +11,7 @@ namespace unshot {
 namespace {
 
 // Products with the matrix in one refresh.
-constexpr int kProductsAtOnce = 4, kPowerSteps = 6;
+constexpr int kProductsAtOnce = 4, kPowerSteps = 3;
 // Partial sums of (I - M)^-1 1 that are tried for a positive v - M v.
 constexpr int kMostSums = 200;
 // A weight that falls by less than this share is as good as found.
@@ -91,8 +91,14 @@ void ErrorBounds::capTotal() {
   glm::dvec3 rho(0.0);
   for (const glm::dvec3& r : state_.reflectance()) rho = glm::max(rho, r);
   rho *= matrix_.largestSent();
-  z_.clear();
-  if (largest(rho) < 1) z_.assign(matrix_.size(), rho / (1.0 - rho));
+  Field z;
+  if (largest(rho) < 1) z.assign(matrix_.size(), rho / (1.0 - rho));
+  setTotal(std::move(z));
+}
+
+void ErrorBounds::setTotal(Field z) {
+  z_ = std::move(z);
+  reflected_total_ = z_.empty() ? Field() : reflected(countedPlus(z_));
   weights_stale_ = true;
 }
 
@@ -106,17 +112,16 @@ void ErrorBounds::startTotal() {
   glm::dvec3 factor(0.0);
   for (std::size_t q = 0; q < y.size(); ++q) factor = glm::max(factor, needed[q] / w[q]);
   for (glm::dvec3& x : y) x *= factor * (1 + kRounding);
-  z_ = std::move(y);
+  setTotal(std::move(y));
 }
 
 bool ErrorBounds::lowerTotal() {
-  const Field x = reflected(countedPlus(z_));
   glm::dvec3 most(0.0);
-  for (const glm::dvec3& value : x) most = glm::max(most, value);
+  for (const glm::dvec3& value : reflected_total_) most = glm::max(most, value);
   most *= matrix_.largestSent();
   double before = 0, after = 0;
   Field lower(z_.size());
-  matrix_.transposed(x, lower);
+  matrix_.transposed(reflected_total_, lower);
   for (std::uint32_t q = 0; q < z_.size(); ++q) {
     // An unknown column that does not matter carries nothing.
     const glm::dvec3 sent = matrix_.knows(q) ? lower[q] * (1 + kRounding)
@@ -126,7 +131,7 @@ bool ErrorBounds::lowerTotal() {
     before += state_.area()[q] * sum(z_[q]);
     after += state_.area()[q] * sum(lower[q]);
   }
-  z_ = std::move(lower);
+  setTotal(std::move(lower));
   return after < (1 - kGain) * before;
 }
 
@@ -192,7 +197,7 @@ void ErrorBounds::columnChanged(std::uint32_t q) {
     weights_stale_ = true;
   }
   if (z_.empty()) return;
-  const glm::dvec3 sent = matrix_.transposed(q, reflected(countedPlus(z_))) * (1 + kRounding);
+  const glm::dvec3 sent = matrix_.transposed(q, reflected_total_) * (1 + kRounding);
   if (largest(sent - z_[q]) > 0) capTotal();
 }
 

@@ -14,7 +14,7 @@ namespace {
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 // Times 0 it is 0, unlike infinity.
 constexpr double kHuge = 1e300;
-constexpr int kStepsAtOnce = 6;
+constexpr int kStepsAtOnce = 3;
 // So much of x stays, that it never comes near 0 where little light goes.
 constexpr double kStays = 0.1;
 
