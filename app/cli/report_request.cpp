@@ -62,7 +62,7 @@ ReportArguments::ReportArguments(Command& command) : solver_(command, SolverUse:
   command.add("--error", error_, "X", "Where runs end, 0 < X < 1 (default 0.001)", properFraction());
   command.add("--repeats", repeats_, "N", "Runs of each mode, for medians (default 3)", wholeNumber(1, 99));
   command.add("--max-seconds", max_seconds_, "T",
-              "Time for a scene [s] (default 65): repeats beyond it are left out", positiveNumber());
+              "Time for a scene [s] (default 70): repeats beyond it are left out", positiveNumber());
   command.flag("--reference", reference_,
                "Measure against path-traced truth too; it is kept in DIR for the next time");
   command.add("--reference-seconds", reference_seconds_, "T", "Time for tracing it [s] (default 60)",

@@ -17,7 +17,7 @@ struct ReportRequest {
   std::filesystem::path out;
   std::vector<std::string> modes;
   std::size_t repeats = 3;
-  double max_seconds = 65;  ///< of a scene, wall time
+  double max_seconds = 70;  ///< of a scene, wall time
   bool reference = false, pictures = true;
   double reference_seconds = 60;
   SolveOptions options;
@@ -37,7 +37,7 @@ class ReportArguments {
   std::vector<std::string> scenes_;
   std::string out_, modes_ = "all";
   std::uint64_t repeats_ = 3;
-  double error_ = 0.001, max_seconds_ = 65, reference_seconds_ = 60;
+  double error_ = 0.001, max_seconds_ = 70, reference_seconds_ = 60;
   bool reference_ = false, no_pictures_ = false;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 // Errors are estimated from so many places while the solve runs and when it rests.
 constexpr std::size_t kPlacesInPassing = 128, kPlacesAtRest = 512, kPlacesAtOnce = 64;
-// Share of the solver's time that estimates may take on the way, beside bounds (3 to 8 %).
+// Share of the solver's time that estimates may take on the way, beside bounds (1 to 6 %).
 constexpr double kEstimateShare = 0.01;
 // What the first is taken to cost, of the time that meshing took: it looks at the whole mesh.
 constexpr double kFirstEstimate = 0.25;
