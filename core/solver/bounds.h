@@ -124,7 +124,7 @@ class ErrorBounds {
   std::uint64_t version_ = 0;                           // of the matrix at the last refresh
   std::uint64_t compared_version_ = ~std::uint64_t{0};  // of the matrix that w_ belongs to
   Field z_;                                             // empty: no bound
-  Field reflected_total_;                               // R (z + 1 where errors count)
+  Field reflected_total_;                               // rho (z + 1 where errors count)
   Field y_;                                             // below z
   // A z, rounded up, and A y, rounded down, with A over the area that counts; channels follow each other.
   std::vector<float> upper_weights_, lower_weights_;
