@@ -1,6 +1,8 @@
 #include "session/solve.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -15,12 +17,14 @@
 #include "cli/interrupt.h"
 #include "cli/picture.h"
 #include "cli/progress.h"
+#include "cli/saver.h"
 #include "cli/solve_request.h"
 #include "cli/summary.h"
 #include "cli/text.h"
 #include "exit_codes.h"
 #include "report/report_json.h"
 #include "scene/obj_reader.h"
+#include "session/saved_solve.h"
 
 namespace unshot {
 namespace {
@@ -31,7 +35,8 @@ std::size_t placesFor(const Measures& measures) {
 }
 
 /// Steps until the solve is over or the user interrupts it.
-void runSteps(Solve& solve, const InterruptFlag& interrupted, Progress& progress) {
+void runSteps(Solve& solve, const InterruptFlag& interrupted, Progress& progress, Saver& saver) {
+  const double began = solve.measures().seconds;
   while (solve.state() == SolveState::kRunning) {
     if (interrupted.raised()) {
       solve.interrupt();
@@ -39,7 +44,8 @@ void runSteps(Solve& solve, const InterruptFlag& interrupted, Progress& progress
     }
     solve.step(Solve::kMostAtOnce);
     const Measures& m = solve.measures();
-    progress.update({solve.progress(), m.unshot_fraction, m.solverBound(), m.shots, m.seconds});
+    progress.update({solve.progress(), m.unshot_fraction, m.solverBound(), m.shots, m.seconds - began});
+    saver.offer(solve);
   }
   if (!interrupted.raised()) {
     progress.phase("estimating errors");
@@ -48,18 +54,22 @@ void runSteps(Solve& solve, const InterruptFlag& interrupted, Progress& progress
   progress.finish();
 }
 
+/// A file to be written, whatever it holds.
+struct WriteJob {
+  std::filesystem::path path;
+  std::function<void()> write;
+};
+
 /// Writes every output. Where one fails, the others are written all the same, and the first Error is
 /// returned. Pipes and devices come last: they may wait for a reader, and files must not wait for them.
-std::optional<Error> writeOutputs(const SolveRequest& request, const ExportSource& source,
-                                  std::vector<std::string>& written) {
-  std::vector<Output> outputs = request.outputs;
-  std::stable_partition(outputs.begin(), outputs.end(),
-                        [](const Output& output) { return !isPipeOrDevice(output.path); });
+std::optional<Error> writeAll(std::vector<WriteJob> jobs, std::vector<std::string>& written) {
+  std::stable_partition(jobs.begin(), jobs.end(),
+                        [](const WriteJob& job) { return !isPipeOrDevice(job.path); });
   std::optional<Error> first;
-  for (const Output& output : outputs) {
+  for (const WriteJob& job : jobs) {
     try {
-      output.exporter->write(source, output.path);
-      written.push_back(output.path.string());
+      job.write();
+      written.push_back(job.path.string());
     } catch (const Error& error) {
       if (first) {
         std::cerr << "unshot: " << error.fullText() << std::endl;
@@ -68,7 +78,7 @@ std::optional<Error> writeOutputs(const SolveRequest& request, const ExportSourc
       }
     } catch (const std::exception& error) {
       const Error wrapped(ErrorKind::kInternal, std::string("could not be made: ") + error.what(),
-                          output.path.string());
+                          job.path.string());
       if (!first) first = wrapped;
     }
   }
@@ -114,7 +124,8 @@ void printFrom(std::size_t first, const Diagnostics& all) {
 
 /// Writes and says what was reached; returns the exit code.
 int finishSolve(const SolveRequest& request, const Solve& solve, LazyContext& context,
-                std::span<const Probe> probes, double load_seconds, const InterruptFlag& interrupted) {
+                std::span<const Probe> probes, double load_seconds, const InterruptFlag& interrupted,
+                Saver& saver) {
   const Snapshot snapshot = solve.snapshot();
   const auto record = [&] {
     RunRecord r = recordOf(solve);
@@ -131,12 +142,26 @@ int finishSolve(const SolveRequest& request, const Solve& solve, LazyContext& co
                       .report = [&] { return reportJson(record()); },
                       .probes = probes,
                       .warn = [](const Diagnostic& d) { printDiagnostics(std::cerr, {d}); }};
+  std::vector<WriteJob> jobs;
+  if (!request.save.empty()) jobs.push_back({request.save, [&] { saver.save(solve); }});
+  for (const Output& output : request.outputs)
+    jobs.push_back({output.path, [&] { output.exporter->write(source, output.path); }});
   std::vector<std::string> written;
-  const std::optional<Error> failure = writeOutputs(request, source, written);
-  printSummary(std::cout, record(), request.options, written);
+  const std::optional<Error> failure = writeAll(std::move(jobs), written);
+  printSummary(std::cout, record(), solve.options(), written);
   std::cout.flush();
   if (failure) throw *failure;
-  return concludeSolve(solve, request.options, interrupted);
+  return concludeSolve(solve, solve.options(), interrupted);
+}
+
+/// The saved solve to go on from, and what is to be asked of it; none where it is not asked for.
+std::shared_ptr<SavedSolve> readResumed(const SolveRequest& request, SolveOptions& options) {
+  if (request.resume.empty()) return nullptr;
+  std::shared_ptr<SavedSolve> saved = readSavedSolve(request.resume);
+  if (!request.error_given) options.error = saved->error;
+  std::cerr << "unshot: goes on from " << request.resume.string() << ": " << countedText(saved->shots, "shot")
+            << " in " << figureText(saved->seconds) << " s" << std::endl;
+  return saved;
 }
 
 int solveScene(const SolveRequest& request, const InterruptFlag& interrupted) {
@@ -145,7 +170,9 @@ int solveScene(const SolveRequest& request, const InterruptFlag& interrupted) {
   useShaderDir(request.shader_dir);
   std::vector<Probe> probes;
   if (!request.probe.empty()) probes = readProbes(request.probe);
-  Progress progress(request.options.max_seconds.value_or(0));
+  SolveOptions options = request.options;
+  std::shared_ptr<SavedSolve> saved = readResumed(request, options);
+  Progress progress(options.max_seconds.value_or(0));
   LazyContext context(request.gl);
   // A picture needs GL: where there is none, that is said before the solve.
   if (request.needsPicture()) context.get();
@@ -159,15 +186,16 @@ int solveScene(const SolveRequest& request, const InterruptFlag& interrupted) {
   const std::size_t said = scene.diagnostics.size();
   progress.phase("meshing");
   Solve solve(
-      std::move(scene), request.options, [&]() -> gl::Context& { return context.get(); },
-      interrupted.token());
+      std::move(scene), options, [&]() -> gl::Context& { return context.get(); }, interrupted.token(),
+      std::move(saved));
   progress.finish();
   interrupted.token().check();
   printFrom(said, solve.diagnostics());
   const std::size_t said_before_steps = solve.diagnostics().size();
-  runSteps(solve, interrupted, progress);
+  Saver saver(request.save, request.save_every);
+  runSteps(solve, interrupted, progress, saver);
   printFrom(said_before_steps, solve.diagnostics());
-  return finishSolve(request, solve, context, probes, load_seconds, interrupted);
+  return finishSolve(request, solve, context, probes, load_seconds, interrupted, saver);
 }
 
 int runSolve(const SolveRequest& request) {

@@ -41,6 +41,7 @@ SolveArguments::SolveArguments(Command& command)
   command.argument("SCENE.obj", scene_, "The scene: Wavefront OBJ with MTL");
   addOutputs(command);
   addPicture(command);
+  addSaving(command);
 }
 
 void SolveArguments::addOutputs(Command& command) {
@@ -54,6 +55,25 @@ void SolveArguments::addOutputs(Command& command) {
               fileName());
   command.need("--probe", "--probe-out");
   command.need("--probe-out", "--probe");
+}
+
+void SolveArguments::addSaving(Command& command) {
+  command.group("To go on later");
+  command.add("--save", save_, "F",
+              "Save the solve itself, now and then, on Ctrl-C and at the end: mesh, light and form factors "
+              "(as large as these)",
+              fileName());
+  command.add("--save-every", save_every_, "S",
+              "Seconds between two saves (default 60), more where saving takes long", positiveNumber());
+  command.add("--resume", resume_, "F",
+              "Go on from a saved solve of this scene; limits count from there, and its --mode and --error "
+              "hold where they are not given",
+              fileName());
+  command.need("--save-every", "--save");
+  command.exclude("--save", "--bounces");
+  for (const char* decided : {"--form-factors", "--elements", "--element-size", "--max-elements", "--emit",
+                              "--sky", "--seed", "--hemicube", "--bounces"})
+    command.exclude("--resume", decided);
 }
 
 void SolveArguments::addPicture(Command& command) {
@@ -82,6 +102,10 @@ SolveRequest SolveArguments::request() const {
   request.gl = solver_.gl();
   request.shader_dir = solver_.shaderDir();
   request.probe = probe_;
+  request.save = save_;
+  request.resume = resume_;
+  request.save_every = save_every_.value_or(request.save_every);
+  request.error_given = solver_.errorGiven();
   request.picture = picture_;
   request.picture.linear = false;
   if (!size_.empty()) {
@@ -111,21 +135,27 @@ SolveRequest SolveArguments::request() const {
 }
 
 void checkOutputs(const SolveRequest& request) {
-  for (std::size_t k = 0; k < request.outputs.size(); ++k) {
-    const Output& output = request.outputs[k];
-    const std::string option = "--" + std::string(output.exporter->info.key);
-    for (const std::filesystem::path& input : {request.scene, request.probe}) {
-      if (!input.empty() && samePath(output.path, input)) {
-        refuse(option + " would replace the input " + input.string(), "another file name");
-      }
+  struct Target {
+    std::string option;
+    std::filesystem::path path;
+  };
+  std::vector<Target> targets;
+  for (const Output& output : request.outputs)
+    targets.push_back({"--" + std::string(output.exporter->info.key), output.path});
+  if (!request.save.empty()) targets.push_back({"--save", request.save});
+  for (std::size_t k = 0; k < targets.size(); ++k) {
+    const auto& [option, path] = targets[k];
+    for (const std::filesystem::path& input : {request.scene, request.probe, request.resume}) {
+      // A solve may be saved where it was resumed from.
+      if (input.empty() || !samePath(path, input) || (option == "--save" && input == request.resume))
+        continue;
+      refuse(option + " would replace the input " + input.string(), "another file name");
     }
     for (std::size_t other = 0; other < k; ++other) {
-      if (!samePath(output.path, request.outputs[other].path)) continue;
-      refuse(
-          option + " and --" + std::string(request.outputs[other].exporter->info.key) + " name the same file",
-          "a file name for each");
+      if (!samePath(path, targets[other].path)) continue;
+      refuse(option + " and " + targets[other].option + " name the same file", "a file name for each");
     }
-    checkWritable(output.path);
+    checkWritable(path);
   }
 }
 

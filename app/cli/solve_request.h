@@ -29,6 +29,9 @@ struct SolveRequest {
   PictureOptions picture;
   std::filesystem::path probe;
   std::vector<Output> outputs;
+  std::filesystem::path save, resume;  ///< files of a saved solve; empty where not asked for
+  double save_every = 60;              ///< [s]
+  bool error_given = false;            ///< by the command line, not by default
 
   bool needsPicture() const;
 };
@@ -43,8 +46,10 @@ class SolveArguments {
  private:
   void addPicture(Command& command);
   void addOutputs(Command& command);
+  void addSaving(Command& command);
 
-  std::string scene_, probe_;
+  std::string scene_, probe_, save_, resume_;
+  std::optional<double> save_every_;
   SolverArguments solver_;
   PictureOptions picture_;
   std::string size_, eye_, at_, up_;

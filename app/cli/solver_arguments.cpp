@@ -91,7 +91,7 @@ void SolverArguments::addMesh(Command& command) {
 
 void SolverArguments::addLimits(Command& command) {
   command.group("When to stop");
-  command.add("--error", options_.error, "X",
+  command.add("--error", error_, "X",
               "Stop when the bound of the solver's error is below this, 0 < X < 1 (default 0.01)",
               properFraction());
   command.add("--max-seconds", options_.max_seconds, "T", "Stop after this time [s] and write the result",
@@ -110,6 +110,7 @@ void SolverArguments::addBounces(Command& command) {
 SolveOptions SolverArguments::options() const {
   SolveOptions options = options_;
   options.emit_front_only = emit_ == "front";
+  if (error_) options.error = *error_;
   if (!sky_.empty()) options.sky = parseSky(sky_);
   if (kept_mb_) options.kept_bytes = static_cast<std::size_t>(static_cast<double>(*kept_mb_) * kBytesPerMb);
   return options;

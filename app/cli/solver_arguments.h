@@ -22,6 +22,7 @@ class SolverArguments {
   SolverArguments(Command& command, SolverUse use);
 
   SolveOptions options() const;
+  bool errorGiven() const { return error_.has_value(); }
   /// Key of a provider, "glfw" or "auto".
   const std::string& gl() const { return gl_; }
   /// Empty where not given.
@@ -36,6 +37,7 @@ class SolverArguments {
   SolveOptions options_;
   std::string gl_ = "auto", shader_dir_, emit_ = "both", sky_;
   std::optional<std::uint64_t> kept_mb_;
+  std::optional<double> error_;
 };
 
 /// Takes shaders from this folder from now on; nothing where it is empty. Throws Error kEnvironment where it

@@ -177,12 +177,17 @@ void checkWritable(const fs::path& path) {
 }
 
 void writeWholeFile(const fs::path& path, std::string_view bytes) {
+  writeWholeFile(path, [&](const std::function<void(std::string_view)>& sink) { sink(bytes); });
+}
+
+void writeWholeFile(const fs::path& path,
+                    const std::function<void(const std::function<void(std::string_view)>&)>& write) {
   const fs::path target = resolveTarget(path);
   if (isPipeOrDevice(target)) {
     const int file = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
     if (file < 0) failWith(path, errno);
     const Closing closing{file};
-    writeAll(file, bytes, path);
+    write([&](std::string_view bytes) { writeAll(file, bytes, path); });
     return;
   }
   TemporaryFile temporary(target);
@@ -190,7 +195,7 @@ void writeWholeFile(const fs::path& path, std::string_view bytes) {
   if (::stat(target.c_str(), &before) == 0 && ::fchmod(temporary.descriptor(), before.st_mode & 07777) != 0) {
     failWith(path, errno);
   }
-  writeAll(temporary.descriptor(), bytes, path);
+  write([&](std::string_view bytes) { writeAll(temporary.descriptor(), bytes, path); });
   temporary.replaceTarget();
 }
 

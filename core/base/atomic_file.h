@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string_view>
 
 namespace unshot {
@@ -20,5 +21,8 @@ bool isPipeOrDevice(const std::filesystem::path& path);
 /// directly. Throws Error (kEnvironment) and leaves no temporary file. Where the file system knows files
 /// without a name (Linux's usual ones do), a program that ends while it writes leaves none behind either.
 void writeWholeFile(const std::filesystem::path& path, std::string_view bytes);
+/// The same for what is not at hand in one piece: `write` gives it to its argument, piece by piece.
+void writeWholeFile(const std::filesystem::path& path,
+                    const std::function<void(const std::function<void(std::string_view)>&)>& write);
 
 }  // namespace unshot

@@ -11,7 +11,8 @@ Transport::Transport(std::unique_ptr<FormFactorMethod> method, Receivers receive
       patch_area_(std::move(patch_area)),
       budget_(kept_bytes),
       kept_(patch_area_.size()),
-      quality_(patch_area_.size()) {}
+      quality_(patch_area_.size()),
+      expected_(patch_area_.size()) {}
 
 const Column& Transport::column(std::uint32_t q) {
   if (kept_[q]) return *kept_[q];
@@ -21,18 +22,29 @@ const Column& Transport::column(std::uint32_t q) {
 
 // A column that found no room is computed again as it was used before.
 Column Transport::compute(std::uint32_t q) {
-  return compute(q, quality_[q].value_or(drafts_allowed_ ? ColumnQuality::kGroup : ColumnQuality::kFull));
+  const ColumnQuality otherwise = drafts_allowed_ ? ColumnQuality::kGroup : ColumnQuality::kFull;
+  return compute(q, quality_[q].value_or(expected_[q].value_or(otherwise)));
 }
 
 Column Transport::compute(std::uint32_t q, ColumnQuality wanted) {
   Column column = wanted == ColumnQuality::kFull ? method_->column(q) : method_->draft(q, wanted);
   if (!column.at_hand) ++computed_;
-  if (quality_[q] == column.quality) return column;
+  setQuality(q, column);
+  return column;
+}
+
+void Transport::setQuality(std::uint32_t q, const Column& column) {
+  if (quality_[q] == column.quality) return;
   if (quality_[q]) --counts_[static_cast<std::size_t>(*quality_[q])];
   ++counts_[static_cast<std::size_t>(column.quality)];
   quality_[q] = column.quality;
   if (watcher_) watcher_(q, column);
-  return column;
+}
+
+bool Transport::restore(std::uint32_t q, Column column) {
+  if (kept_bytes_ + column.bytes() > budget_) return false;
+  setQuality(q, keep(q, std::move(column)));
+  return true;
 }
 
 // The first columns asked for are the brightest patches: they are asked for most often, so none gives way to

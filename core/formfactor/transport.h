@@ -29,6 +29,14 @@ class Transport {
   const Column& column(std::uint32_t q);
   /// Whether column q is kept, so that asking for it costs nothing.
   bool isKept(std::uint32_t q) const { return kept_[q] != nullptr; }
+  /// Column q where it is kept, else null.
+  const Column* kept(std::uint32_t q) const { return kept_[q].get(); }
+  /// Takes column q as it was computed before, in the place of computing it, and tells the watcher of it;
+  /// false where there is no room. For columns that were not asked for yet.
+  bool restore(std::uint32_t q, Column column);
+  /// Column q, not asked for yet, is to be of this quality, drafts allowed or not.
+  void expect(std::uint32_t q, ColumnQuality quality) { expected_[q] = quality; }
+  bool draftsAllowed() const { return drafts_allowed_; }
   /// Called with each column as it is computed for the first time or in better quality.
   void watchColumns(std::function<void(std::uint32_t, const Column&)> watcher) {
     watcher_ = std::move(watcher);
@@ -62,6 +70,7 @@ class Transport {
   Column compute(std::uint32_t q);
   Column compute(std::uint32_t q, ColumnQuality wanted);
   const Column& keep(std::uint32_t q, Column column);
+  void setQuality(std::uint32_t q, const Column& column);
 
   std::unique_ptr<FormFactorMethod> method_;
   Receivers receivers_;
@@ -72,8 +81,9 @@ class Transport {
   Column passing_;  // the last column that found no room
   std::uint32_t passing_patch_ = kNone;
   std::uint64_t computed_ = 0, refined_ = 0, replaced_ = 0;
-  std::vector<std::optional<ColumnQuality>> quality_;  // of the columns used so far
-  std::array<std::size_t, 3> counts_{};                // by quality
+  std::vector<std::optional<ColumnQuality>> quality_;   // of the columns used so far
+  std::vector<std::optional<ColumnQuality>> expected_;  // of others, where that is decided
+  std::array<std::size_t, 3> counts_{};                 // by quality
   bool drafts_allowed_ = false;
   std::function<void(std::uint32_t, const Column&)> watcher_;
 };

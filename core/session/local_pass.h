@@ -29,6 +29,8 @@ class LocalPass {
   void advance(Transport& transport);
   /// What the last pass that came to its end adds to the irradiance, one per receiver [W/m^2]; empty before.
   const std::vector<glm::dvec3>& irradiance() const { return irradiance_; }
+  /// One came to its end with this, as irradiance() says (or none, where it is empty).
+  void restore(std::vector<glm::dvec3> irradiance) { irradiance_ = std::move(irradiance); }
   /// None has come to its end.
   void forget() { irradiance_.clear(); }
 

@@ -7,8 +7,10 @@
 #include "formfactor/methods.h"
 #include "formfactor/sky.h"
 #include "gl/context.h"
+#include "scene/scene_hash.h"
 #include "session/fields.h"
 #include "session/plan.h"
+#include "session/saved_solve.h"
 #include "session/solve_impl.h"
 
 namespace unshot {
@@ -37,8 +39,15 @@ std::vector<glm::dvec3> perPatch(const Mesh& mesh, glm::dvec3 Side::*member) {
 
 }  // namespace
 
-void Solve::Impl::prepare(const std::function<gl::Context&()>& gl, const CancelToken& cancel) {
+void Solve::Impl::prepare(const std::function<gl::Context&()>& gl, const CancelToken& cancel,
+                          std::shared_ptr<SavedSolve> saved) {
   checkError(options.error);
+  if (saved) {
+    if (saved->scene_hash != sceneHash(scene))
+      throw Error(ErrorKind::kInput, "was saved from another scene than " + scene.path.string(),
+                  saved->path.string(), "the scene as it was then, or a new start");
+    options = saved->options(std::move(options));
+  }
   cpu_start = cpuSeconds();
   Preparation prepared = unshot::prepare(scene, options, cancel);
   mesh = std::move(prepared.mesh);
@@ -72,14 +81,16 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl, const CancelT
     local_pass =
         std::make_unique<LocalPass>(*mesh, transport->receivers(), form_factors_key != "closed-form");
   bounces_of_light = std::make_unique<Bounces>(mesh, *transport, *state);
+  if (saved) restore(*saved);
   chooseMode(options.mode);
   solve_start = wallSeconds();
   if (state->emittedPower() <= 0) {
     measures.unshot_fraction = 0;
     stop(SolveState::kConverged, "no light");
   }
+  if (saved) takeUp(*saved);
   measure();
-  history.push_back({measures});
+  if (!saved) history.push_back({measures});
 }
 
 void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl, const CancelToken& cancel) {
@@ -219,9 +230,10 @@ std::optional<std::size_t> Solve::Impl::iterate(std::uint64_t most_shots) {
   }
 }
 
-Solve::Solve(Scene scene, SolveOptions options, std::function<gl::Context&()> gl, const CancelToken& cancel)
+Solve::Solve(Scene scene, SolveOptions options, std::function<gl::Context&()> gl, const CancelToken& cancel,
+             std::shared_ptr<SavedSolve> saved)
     : impl_(std::make_unique<Impl>(std::move(scene), std::move(options))) {
-  impl_->prepare(gl, cancel);
+  impl_->prepare(gl, cancel, std::move(saved));
 }
 
 Solve::~Solve() = default;
@@ -413,7 +425,7 @@ std::size_t Solve::workingBytes() const {
          2 * state.irradiance().size() * sizeof(glm::dvec3) + (impl_->mode ? impl_->mode->bytes() : 0);
 }
 
-std::uint64_t Solve::drawn() const { return impl_->transport->drawn(); }
+std::uint64_t Solve::drawn() const { return impl_->drawn_before + impl_->transport->drawn(); }
 const std::string& Solve::stoppedBy() const { return impl_->stopped_by; }
 const std::optional<Error>& Solve::failure() const { return impl_->failure; }
 

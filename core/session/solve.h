@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -22,6 +23,7 @@ namespace gl {
 class Context;
 }
 class FormFactorMethod;
+struct SavedSolve;
 
 /// What the user asks of a solve. Keys are those of the tables (`unshot list`).
 struct SolveOptions {
@@ -83,7 +85,11 @@ class Solve {
   /// `gl` is called at most once, only when the form-factor method needs GL; the context stays the caller's
   /// and outlives the Solve. Meshes the scene and sets the method up. Throws Error (kUsage for unknown keys
   /// or impossible options), Cancelled where `cancel`, of which it keeps nothing, asks for it.
-  Solve(Scene scene, SolveOptions options, std::function<gl::Context&()> gl, const CancelToken& cancel = {});
+  /// Where `saved` is given it goes on from there: SavedSolve::options stand in the place of those of
+  /// `options`, and max_seconds and max_shots count from here. Throws Error (kInput) where it is of another
+  /// scene.
+  Solve(Scene scene, SolveOptions options, std::function<gl::Context&()> gl, const CancelToken& cancel = {},
+        std::shared_ptr<SavedSolve> saved = nullptr);
   ~Solve();
   Solve(const Solve&) = delete;
   Solve& operator=(const Solve&) = delete;
@@ -129,6 +135,10 @@ class Solve {
   SolveState state() const;
   /// Ends the solve as interrupted; what was reached stays.
   void interrupt();
+
+  /// Writes all that it takes to go on later (saved_solve.h): whole, or not at all and the file that was
+  /// there before stays. Throws Error (kEnvironment).
+  void save(const std::filesystem::path& path) const;
 
   /// A copy of the present state for display and export.
   Snapshot snapshot() const;

@@ -1,5 +1,6 @@
 // What a solve holds, for its own files alone: solve.cpp, which sets it up and takes its steps, and
-// solve_end.cpp, which says when and why it ends.
+// solve_end.cpp, which says when and why it ends;
+// and saved_solve.cpp, which writes it into a file and takes it up again.
 #pragma once
 
 #include <memory>
@@ -13,6 +14,7 @@
 #include "session/fields.h"
 #include "session/known_solution.h"
 #include "session/local_pass.h"
+#include "session/saved_solve.h"
 #include "session/solve.h"
 #include "session/stagnation.h"
 #include "solver/ambient.h"
@@ -39,7 +41,9 @@ struct Solve::Impl {
   std::unique_ptr<ErrorBudget> budget;
   std::unique_ptr<Bounces> bounces_of_light;
   KnownSolution known_solution;
-  std::uint64_t rows_before = 0;  // computed before the solve shot again
+  // Computed before the solve shot again; less than 0, by overflow, where it was taken up with more.
+  std::uint64_t rows_before = 0;
+  std::uint64_t drawn_before = 0;  // hemicubes, by the solve that this one goes on from
 
   SolveState progress_state = SolveState::kRunning;
   std::string stopped_by;
@@ -58,7 +62,10 @@ struct Solve::Impl {
   Impl(Scene scene_in, SolveOptions options_in)
       : options(std::move(options_in)), scene(std::move(scene_in)) {}
 
-  void prepare(const std::function<gl::Context&()>& gl, const CancelToken& cancel);
+  void prepare(const std::function<gl::Context&()>& gl, const CancelToken& cancel,
+               std::shared_ptr<SavedSolve> saved);
+  void restore(SavedSolve& saved);
+  void takeUp(const SavedSolve& saved);
   void makeTransport(const std::function<gl::Context&()>& gl, const CancelToken& cancel);
   void chooseMode(const std::string& key);
   void stop(SolveState how, std::string why);

@@ -28,7 +28,20 @@ class RadiosityState {
   /// Nothing shot again.
   void reset();
 
-  std::size_t patchCount() const { return shot_.size(); }
+  /// All that changes while it solves.
+  struct Values {
+    std::vector<glm::dvec3> shot, unshot;        ///< S and U, one per patch [W/m^2]
+    std::vector<glm::dvec3> emission_left;       ///< E not yet shot, one per patch [W/m^2]
+    std::vector<glm::dvec3> irradiance, direct;  ///< H and H_d, one per receiver [W/m^2]
+    double escaped_power = 0, defect_power = 0;  ///< [W]
+    std::uint64_t emission_shots = 0;
+  };
+  const Values& values() const { return values_; }
+  /// Goes on from values of a state of the same patches and receivers; false, and nothing done, where they
+  /// are of others.
+  bool setValues(Values values);
+
+  std::size_t patchCount() const { return values_.shot.size(); }
 
   /// S_q += d, H += K d; H_d += K of the emission in d: per channel, as much of d as is emission not yet shot
   /// (a negative d holds none). `column` is column q of the transport the state was made with.
@@ -42,24 +55,28 @@ class RadiosityState {
 
   const std::vector<glm::dvec3>& emission() const { return emission_; }        ///< E, one per patch [W/m^2]
   const std::vector<glm::dvec3>& reflectance() const { return reflectance_; }  ///< rho, one per patch
-  const std::vector<glm::dvec3>& shot() const { return shot_; }                ///< S, one per patch [W/m^2]
-  const std::vector<glm::dvec3>& unshot() const { return unshot_; }            ///< U, one per patch [W/m^2]
-  const std::vector<glm::dvec3>& irradiance() const { return irradiance_; }  ///< H, one per receiver [W/m^2]
+  const std::vector<glm::dvec3>& shot() const { return values_.shot; }         ///< S, one per patch [W/m^2]
+  const std::vector<glm::dvec3>& unshot() const { return values_.unshot; }     ///< U, one per patch [W/m^2]
+  const std::vector<glm::dvec3>& irradiance() const {
+    return values_.irradiance;
+  }  ///< H, one per receiver [W/m^2]
   /// H_d: irradiance straight from emitters, one per receiver [W/m^2]; all of it once every emitter has shot.
-  const std::vector<glm::dvec3>& direct() const { return direct_; }
+  const std::vector<glm::dvec3>& direct() const { return values_.direct; }
   /// How many shots carried emission: direct() is as before where this is.
-  std::uint64_t emissionShots() const { return emission_shots_; }
+  std::uint64_t emissionShots() const { return values_.emission_shots; }
   const std::vector<double>& area() const { return area_; }  ///< one per patch [m^2]
   /// Emission of patch q that it has not shot yet [W/m^2].
-  const glm::dvec3& emissionLeft(std::uint32_t q) const { return emission_left_[q]; }
+  const glm::dvec3& emissionLeft(std::uint32_t q) const { return values_.emission_left[q]; }
 
   double emittedPower() const { return emitted_power_; }  ///< sum A E over patches and channels [W]
   double unshotPower() const;                             ///< sum A |U| over patches and channels [W]
   /// Whether U is no more than what rounding leaves of what was emitted.
   bool onlyRoundingUnshot() const { return unshotPower() <= 1e-15 * emitted_power_; }
-  double escapedPower() const { return escaped_power_; }  ///< shot into nothing so far, over channels [W]
+  double escapedPower() const {
+    return values_.escaped_power;
+  }  ///< shot into nothing so far, over channels [W]
   double defectPower() const {
-    return defect_power_;
+    return values_.defect_power;
   }  ///< shot and lost by approximation so far, over channels [W]
 
  private:
@@ -67,11 +84,10 @@ class RadiosityState {
   glm::dvec3 takeEmission(std::uint32_t q, const glm::dvec3& d);
 
   const Transport& transport_;
-  std::vector<glm::dvec3> emission_, reflectance_, shot_, unshot_, irradiance_, direct_;
-  std::vector<glm::dvec3> emission_left_;  // E not yet shot, one per patch
+  std::vector<glm::dvec3> emission_, reflectance_;
   std::vector<double> area_;
-  double emitted_power_ = 0, escaped_power_ = 0, defect_power_ = 0;
-  std::uint64_t emission_shots_ = 0;
+  double emitted_power_ = 0;
+  Values values_;
 };
 
 }  // namespace unshot

@@ -46,6 +46,7 @@ const std::vector<Home>& homes() {
       {"GL/glcorearb", {"core/gl/functions"}},
       {"GL/", {}},
       {"embree", {"core/rays/"}},
+      {"xxhash", {"core/base/"}},
       {"Eigen", {"core/solver/"}},
       {"stb_image", {"core/scene/texture_mean.cpp", "core/export/image_files.cpp"}},
       {"CLI/", {"app/cli/"}},

@@ -42,6 +42,7 @@ class TempFolder {
     std::ifstream stream(path_ / name, std::ios::binary);
     return std::string(std::istreambuf_iterator<char>(stream), {});
   }
+  bool has(const std::string& name) const { return std::filesystem::exists(path_ / name); }
   /// Names of everything in it, hidden files too.
   std::set<std::string> names() const {
     std::set<std::string> found;

@@ -1,0 +1,13 @@
+// Tells scenes apart by what they hold, wherever they lie.
+#pragma once
+
+#include <cstdint>
+
+#include "scene/scene.h"
+
+namespace unshot {
+
+/// The same for scenes of the same geometry and materials, in the same order; 64 bits of XXH3.
+std::uint64_t sceneHash(const Scene& scene);
+
+}  // namespace unshot

@@ -1,0 +1,200 @@
+#include "session/saved_solve.h"
+
+#include "base/archive.h"
+#include "base/atomic_file.h"
+#include "mesh/mesh_archive.h"
+#include "scene/scene_hash.h"
+#include "session/solve_impl.h"
+
+namespace unshot {
+namespace {
+
+constexpr std::string_view kKind = "unshot solve";
+// To be raised when the file changes, or what form-factor methods and mesh mean by the same options.
+constexpr std::uint32_t kVersion = 1;
+
+template <class Archive, class Decisions>
+void transferPlan(Archive& a, Decisions& plan) {
+  std::uint64_t count = plan.size();
+  a.value(count);
+  if constexpr (!std::is_const_v<Decisions>) plan.resize(count);
+  for (auto& decision : plan) {
+    a.text(decision.what);
+    a.text(decision.why);
+    a.text(decision.saving);
+  }
+}
+
+template <class Archive, class Values>
+void transferValues(Archive& a, Values& v) {
+  a.array(v.shot);
+  a.array(v.unshot);
+  a.array(v.emission_left);
+  a.array(v.irradiance);
+  a.array(v.direct);
+  a.value(v.escaped_power);
+  a.value(v.defect_power);
+  a.value(v.emission_shots);
+}
+
+// All but mesh and columns, which need no copy when they are written.
+template <class Archive, class Saved>
+void transferHead(Archive& a, Saved& s) {
+  a.value(s.scene_hash);
+  a.text(s.form_factors);
+  a.value(s.emit_front_only);
+  a.value(s.sky);
+  a.value(s.seed);
+  a.value(s.hemicube_resolution);
+  a.value(s.hemicube_drawing);
+  a.text(s.mode);
+  a.value(s.error);
+  transferPlan(a, s.plan);
+  a.array(s.quality);
+  a.value(s.drafts_allowed);
+  a.value(s.seconds);
+  a.value(s.cpu_seconds);
+  a.value(s.mesh_seconds);
+  a.value(s.plan_seconds);
+  a.value(s.shots);
+  a.value(s.rows);
+  a.value(s.drawn);
+  a.array(s.history);
+  a.value(s.state);
+  a.text(s.stopped_by);
+}
+
+template <class Archive, class AnyColumn>
+void transferColumn(Archive& a, AnyColumn& c) {
+  a.array(c.receiver);
+  a.value(c.first);
+  a.array(c.k);
+  a.value(c.escape);
+  a.value(c.defect);
+  a.value(c.quality);
+}
+
+}  // namespace
+
+SolveOptions SavedSolve::options(SolveOptions options) const {
+  options.form_factors = form_factors;
+  options.emit_front_only = emit_front_only;
+  options.sky = sky;
+  options.seed = seed;
+  options.hemicube_resolution = hemicube_resolution;
+  options.hemicube_drawing = hemicube_drawing;
+  options.mesh = mesh;
+  if (options.mode == "auto") options.mode = mode;
+  return options;
+}
+
+std::shared_ptr<SavedSolve> readSavedSolve(const std::filesystem::path& path) {
+  auto saved = std::make_shared<SavedSolve>();
+  ArchiveReader archive(path, kKind, kVersion, "a saved solve");
+  saved->path = path;
+  transferHead(archive, *saved);
+  saved->mesh = readMesh(archive);
+  transferValues(archive, saved->values);
+  archive.array(saved->local_irradiance);
+  std::uint64_t count = 0;
+  archive.value(count);
+  for (std::uint64_t k = 0; k < count; ++k) {
+    saved->columns.emplace_back();
+    archive.value(saved->columns.back().first);
+    transferColumn(archive, saved->columns.back().second);
+  }
+  return saved;
+}
+
+void Solve::save(const std::filesystem::path& path) const {
+  const Impl& s = *impl_;
+  const Transport& transport = *s.transport;
+  SavedSolve head;
+  head.scene_hash = sceneHash(s.scene);
+  head.form_factors = s.form_factors_key;
+  head.emit_front_only = s.options.emit_front_only;
+  head.sky = s.sky;
+  head.seed = s.options.seed;
+  head.hemicube_resolution = s.options.hemicube_resolution;
+  head.hemicube_drawing = s.options.hemicube_drawing;
+  head.mode = s.options.mode;
+  head.error = s.options.error;
+  head.plan = s.plan;
+  for (std::uint32_t q = 0; q < transport.patchCount(); ++q) {
+    const auto quality = transport.quality(q);
+    head.quality.push_back(quality ? static_cast<std::uint8_t>(*quality) : SavedSolve::kUnused);
+  }
+  head.drafts_allowed = transport.draftsAllowed();
+  head.seconds = s.measures.seconds;
+  head.cpu_seconds = s.measures.cpu_seconds;
+  head.mesh_seconds = s.seconds.mesh;
+  head.plan_seconds = s.seconds.plan;
+  head.shots = s.measures.shots;
+  head.rows = s.measures.rows;
+  head.drawn = drawn();
+  head.history = s.history;
+  head.state = s.progress_state;
+  head.stopped_by = s.stopped_by;
+  writeWholeFile(path, [&](const std::function<void(std::string_view)>& sink) {
+    ArchiveWriter archive(sink);
+    archive.head(kKind, kVersion);
+    transferHead(archive, std::as_const(head));
+    writeMesh(archive, *s.mesh);
+    transferValues(archive, s.state->values());
+    archive.array(s.local_pass ? s.local_pass->irradiance() : std::vector<glm::dvec3>());
+    archive.value(std::uint64_t{transport.keptColumns()});
+    for (std::uint32_t q = 0; q < transport.patchCount(); ++q) {
+      const Column* const column = transport.kept(q);
+      if (!column) continue;
+      archive.value(q);
+      transferColumn(archive, *column);
+    }
+    archive.finish();
+  });
+}
+
+// In the place of a start: after the transport and the state are made, before a mode is chosen.
+void Solve::Impl::restore(SavedSolve& saved) {
+  const auto refuse = [&](const std::string& why) {
+    throw Error(ErrorKind::kInput, why, saved.path.string(), "the scene that it was saved from, unchanged");
+  };
+  if (saved.quality.size() != transport->patchCount() || !state->setValues(std::move(saved.values)))
+    refuse("does not fit its own mesh");
+  plan = std::move(saved.plan);
+  for (std::uint32_t q = 0; q < transport->patchCount(); ++q) {
+    if (saved.quality[q] != SavedSolve::kUnused)
+      transport->expect(q, static_cast<ColumnQuality>(saved.quality[q]));
+  }
+  for (auto& [q, column] : saved.columns) {
+    if (q >= transport->patchCount()) refuse("does not fit its own mesh");
+    transport->restore(q, std::move(column));
+  }
+  // Drafts must be known, so that they give way one day.
+  for (std::uint32_t q = 0; q < transport->patchCount(); ++q) {
+    const std::uint8_t quality = saved.quality[q];
+    const bool draft =
+        quality != SavedSolve::kUnused && quality != static_cast<std::uint8_t>(ColumnQuality::kFull);
+    if (draft && !transport->quality(q)) transport->column(q);
+  }
+  transport->allowDrafts(saved.drafts_allowed);
+  if (local_pass) local_pass->restore(std::move(saved.local_irradiance));
+}
+
+// The clocks and counts go on, and what has ended well has ended still, where the error asked for is no
+// smaller.
+void Solve::Impl::takeUp(const SavedSolve& saved) {
+  solve_start -= saved.seconds;
+  cpu_start -= saved.cpu_seconds;
+  seconds.mesh = saved.mesh_seconds;
+  seconds.plan = saved.plan_seconds;
+  measures.shots = saved.shots;
+  rows_before = transport->computed() - saved.rows;
+  drawn_before = saved.drawn;
+  if (options.max_seconds) *options.max_seconds += saved.seconds;
+  if (options.max_shots) *options.max_shots += saved.shots;
+  history = saved.history;
+  if (saved.state == SolveState::kConverged && options.error >= saved.error)
+    stop(SolveState::kConverged, saved.stopped_by);
+}
+
+}  // namespace unshot

@@ -1,0 +1,210 @@
+#include "session/saved_solve.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/solving.h"
+#include "support/temp_folder.h"
+#include "support/test_scenes.h"
+
+namespace unshot {
+namespace {
+
+using namespace testing_support;
+
+// A closed room of two colours with a block in it and a light below the ceiling.
+Scene room() {
+  SceneBuilder b;
+  const auto white = b.material("white", glm::dvec3(0.7)), red = b.material("red", {0.6, 0.1, 0.1}),
+             light = b.material("light", glm::dvec3(0.3), {5, 4, 3});
+  const glm::dvec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  b.quad(white, {0, 0, 0}, z, x);
+  b.quad(white, {0, 1, 0}, x, z);
+  b.quad(red, {0, 0, 0}, x, y);
+  b.quad(white, {0, 0, 1}, y, x);
+  b.quad(red, {0, 0, 0}, y, z);
+  b.quad(white, {1, 0, 0}, z, y);
+  b.quad(white, {0.2, 0.4, 0.2}, 0.3 * z, 0.3 * x);
+  b.quad(white, {0.2, 0, 0.2}, 0.4 * y, 0.3 * x);
+  b.quad(white, {0.2, 0, 0.2}, 0.3 * z, 0.4 * y);
+  b.quad(light, {0.6, 0.9, 0.6}, 0.2 * x, 0.2 * z);
+  return b.finish();
+}
+
+struct Case {
+  std::string_view method, mode;
+  bool follows_light = false;
+  std::size_t kept_bytes = std::size_t{1} << 30;
+  bool sky = false;
+};
+
+SolveOptions optionsOf(const Case& c) {
+  SolveOptions options;
+  options.form_factors = c.method;
+  options.mode = c.mode;
+  options.kept_bytes = c.kept_bytes;
+  options.error = c.follows_light ? 0.05 : 0.001;
+  if (!c.follows_light) options.elements = 300;
+  if (c.sky) options.sky = glm::dvec3(0.2, 0.3, 0.5);
+  return options;
+}
+
+std::unique_ptr<Solve> resumed(Scene scene, SolveOptions options, const std::filesystem::path& file) {
+  return std::make_unique<Solve>(
+      std::move(scene), std::move(options), []() -> gl::Context& { return sharedContext(); }, CancelToken{},
+      readSavedSolve(file));
+}
+
+int run(Solve& solve, int most_steps = 1'000'000) {
+  int steps = 0;
+  for (; solve.state() == SolveState::kRunning && steps < most_steps; ++steps) solve.step();
+  return steps;
+}
+
+// RMS of the difference over RMS of `b`, at vertices.
+double differenceOf(const Snapshot& a, const Snapshot& b) {
+  double off = 0, all = 0;
+  for (std::size_t v = 0; v < b.irradiance.size(); ++v) {
+    const glm::dvec3 d = glm::dvec3(a.irradiance[v]) - glm::dvec3(b.irradiance[v]);
+    off += glm::dot(d, d);
+    all += glm::dot(glm::dvec3(b.irradiance[v]), glm::dvec3(b.irradiance[v]));
+  }
+  return std::sqrt(off / all);
+}
+
+class Saved : public testing::TestWithParam<Case> {};
+
+// Left at a third and at two thirds of the way, and taken up again.
+TEST_P(Saved, EndsAsIfItHadNotBeenInterrupted) {
+  const Case& c = GetParam();
+  const SolveOptions options = optionsOf(c);
+  const TempFolder folder;
+  const auto through = begun(room(), options);
+  const int steps = run(*through);
+  ASSERT_EQ(through->state(), SolveState::kConverged);
+  auto solve = begun(room(), options);
+  for (int part = 1; part <= 2; ++part) {
+    run(*solve, steps / 3);
+    ASSERT_EQ(solve->state(), SolveState::kRunning);
+    const Measures before = solve->measures();
+    if (c.method == "hemicube" && c.mode == "southwell" && part == 1) {
+      EXPECT_GT(before.drafts, 0u);
+    }
+    const double energy_off = std::abs(solve->energy().residual());
+    solve->save(folder.path() / "solve");
+    const Snapshot left = solve->snapshot();
+    SolveOptions asked;  // what is not in the file
+    asked.error = options.error;
+    asked.kept_bytes = options.kept_bytes;
+    solve = resumed(room(), asked, folder.path() / "solve");
+    EXPECT_EQ(solve->measures().shots, before.shots);
+    EXPECT_GE(solve->measures().seconds, before.seconds);
+    EXPECT_EQ(solve->measures().unshot_fraction, before.unshot_fraction);
+    EXPECT_EQ(solve->measures().drafts, before.drafts);
+    EXPECT_EQ(solve->modeKey(), through->modeKey());
+    EXPECT_EQ(solve->formFactorsKey(), through->formFactorsKey());
+    EXPECT_NEAR(solve->energy().residual(), energy_off, 1e-9 * solve->energy().emitted);
+    // As it was left, to the last bit.
+    EXPECT_EQ(solve->snapshot().irradiance, left.irradiance);
+  }
+  run(*solve);
+  ASSERT_EQ(solve->state(), SolveState::kConverged) << solve->stoppedBy();
+  const double bounds = through->measures().solverBound() + solve->measures().solverBound();
+  EXPECT_LE(differenceOf(solve->snapshot(), through->snapshot()), bounds);
+  // Form factors at hand are computed once (groups of drafts are looked at again).
+  if (c.kept_bytes > 0) {
+    EXPECT_LE(solve->measures().rows, through->measures().rows * 11 / 10 + 20);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Solves, Saved,
+                         testing::Values(Case{"hemicube", "southwell"}, Case{"hemicube", "gmres"},
+                                         Case{"hemicube", "southwell", false, 0},
+                                         Case{"hemicube-visibility", "jacobi"},
+                                         Case{"rays", "conjugate-gradient"}, Case{"rays", "southwell", true},
+                                         Case{"rays", "chebyshev", false, std::size_t{1} << 30, true}),
+                         [](const auto& row) {
+                           return testName(row.param.method) + testName(row.param.mode) +
+                                  (row.param.follows_light     ? "FollowingLight"
+                                   : row.param.sky             ? "UnderASky"
+                                   : row.param.kept_bytes == 0 ? "KeepingNothing"
+                                                               : "");
+                         });
+
+TEST(SavedSolves, OfAConvergedSolveAreConvergedUntilMoreIsAskedFor) {
+  const Case c{"rays", "southwell", true};
+  const TempFolder folder;
+  const auto solve = solved(room(), optionsOf(c));
+  solve->save(folder.path() / "solve");
+  const auto same = resumed(room(), optionsOf(c), folder.path() / "solve");
+  EXPECT_EQ(same->state(), SolveState::kConverged);
+  EXPECT_EQ(same->stoppedBy(), solve->stoppedBy());
+  EXPECT_EQ(same->snapshot().irradiance, solve->snapshot().irradiance);
+  SolveOptions more = optionsOf(c);
+  more.error = optionsOf(c).error / 10;
+  const auto better = resumed(room(), more, folder.path() / "solve");
+  ASSERT_EQ(better->state(), SolveState::kRunning);
+  run(*better);
+  EXPECT_EQ(better->state(), SolveState::kConverged);
+  EXPECT_LE(better->measures().solverBound(), 0.4 * more.error);
+}
+
+TEST(SavedSolves, GoOnInAnotherModeWhereItIsAskedFor) {
+  const TempFolder folder;
+  const Case c{"rays", "southwell"};
+  const auto solve = begun(room(), optionsOf(c));
+  run(*solve, 50);
+  solve->save(folder.path() / "solve");
+  SolveOptions other = optionsOf(c);
+  other.mode = "gmres";
+  const auto next = resumed(room(), other, folder.path() / "solve");
+  run(*next);
+  EXPECT_EQ(next->modeKey(), "gmres");
+  EXPECT_EQ(next->state(), SolveState::kConverged);
+}
+
+TEST(SavedSolves, CountLimitsFromWhereTheyGoOn) {
+  const TempFolder folder;
+  SolveOptions options = optionsOf({"rays", "southwell"});
+  options.max_shots = 30;
+  const auto solve = begun(room(), options);
+  run(*solve);
+  EXPECT_EQ(solve->stoppedBy(), "max_shots");
+  solve->save(folder.path() / "solve");
+  const auto next = resumed(room(), options, folder.path() / "solve");
+  EXPECT_EQ(next->state(), SolveState::kRunning);
+  run(*next);
+  EXPECT_EQ(next->stoppedBy(), "max_shots");
+  EXPECT_EQ(next->measures().shots, 60u);
+}
+
+TEST(SavedSolves, AreOfOneSceneAlone) {
+  const TempFolder folder;
+  const Case c{"rays", "southwell"};
+  const auto solve = begun(room(), optionsOf(c));
+  run(*solve, 5);
+  solve->save(folder.path() / "solve");
+  Scene other = room();
+  other.materials[0].reflectance.x += 1e-9;
+  try {
+    resumed(other, optionsOf(c), folder.path() / "solve");
+    FAIL() << "another scene was taken";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kInput);
+    EXPECT_EQ(error.where(), (folder.path() / "solve").string());
+  }
+}
+
+// What is asked for the first time stays what it was where saving fails.
+TEST(SavedSolves, LeaveTheFileBeforeWhereTheyCannotBeWritten) {
+  const TempFolder folder;
+  const auto solve = begun(room(), optionsOf(Case{"rays", "southwell"}));
+  EXPECT_THROW(solve->save("/dev/full"), Error);
+  EXPECT_THROW(solve->save(folder.path() / "missing" / "solve"), Error);
+  solve->save(folder.path() / "solve");
+  EXPECT_NO_THROW(readSavedSolve(folder.path() / "solve"));
+}
+
+}  // namespace
+}  // namespace unshot
