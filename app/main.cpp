@@ -18,8 +18,10 @@ int report(const std::string& text, int code) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A reader of our output that goes away must not cost the result of a long solve.
+  // Neither a reader of our output that goes away nor a file that may grow no further costs the result of a
+  // long solve.
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return unshot::runCommandLine(argc, argv);
   } catch (const unshot::Error& error) {

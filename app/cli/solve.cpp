@@ -47,9 +47,21 @@ void runSteps(Solve& solve, const InterruptFlag& interrupted, Progress& progress
     progress.update({solve.progress(), m.unshot_fraction, m.solverBound(), m.shots, m.seconds - began});
     saver.offer(solve);
   }
-  if (!interrupted.raised()) {
-    progress.phase("estimating errors");
+  progress.finish();
+}
+
+/// What the state leaves wrong; where that cannot be told, its results are written all the same.
+void estimateErrors(Solve& solve, Progress& progress) {
+  progress.phase("estimating errors");
+  try {
     solve.estimate(placesFor(solve.measures()));
+  } catch (...) {
+    const Error error = presentError();
+    printDiagnostics(std::cerr, {{Severity::kWarning,
+                                  "not-estimated",
+                                  std::string("errors cannot be estimated: ") + error.what(),
+                                  {},
+                                  error.advice()}});
   }
   progress.finish();
 }
@@ -194,6 +206,7 @@ int solveScene(const SolveRequest& request, const InterruptFlag& interrupted) {
   const std::size_t said_before_steps = solve.diagnostics().size();
   Saver saver(request.save, request.save_every);
   runSteps(solve, interrupted, progress, saver);
+  if (!interrupted.raised()) estimateErrors(solve, progress);
   printFrom(said_before_steps, solve.diagnostics());
   return finishSolve(request, solve, context, probes, load_seconds, interrupted, saver);
 }

@@ -25,6 +25,7 @@ std::string adviceFor(int error) {
   switch (error) {
     case ENOSPC:
     case EDQUOT:
+    case EFBIG:
       return "make room on the disk, or write elsewhere";
     case EACCES:
     case EPERM:

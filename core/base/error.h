@@ -33,4 +33,7 @@ class Error : public std::runtime_error {
   std::string advice_;
 };
 
+/// The exception in flight, worded for the person at the keyboard. To be called in a catch block.
+Error presentError();
+
 }  // namespace unshot

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 #include <utility>
 
 #include "base/clock.h"
@@ -20,20 +19,6 @@ constexpr double kFirstEstimate = 0.25;
 constexpr std::size_t kMostElementsInPassing = 200'000;
 
 }  // namespace
-
-Error presentError() {
-  try {
-    throw;
-  } catch (const Error& error) {
-    return error;
-  } catch (const std::bad_alloc&) {
-    return Error(ErrorKind::kEnvironment, "there is not enough memory", {}, "fewer elements");
-  } catch (const std::exception& error) {
-    return Error(ErrorKind::kInternal, error.what());
-  } catch (...) {
-    return Error(ErrorKind::kInternal, "an unknown exception");
-  }
-}
 
 Lane::Lane(std::unique_ptr<Solve> solve, SolveOptions asked, double load_seconds,
            std::function<void(Error)> note)

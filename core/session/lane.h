@@ -7,13 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "session/publish_pace.h"
 #include "session/session.h"
 
 namespace unshot {
-
-/// The exception in flight, worded for the person at the keyboard.
-Error presentError();
 
 /// All calls on the solver thread.
 class Lane {

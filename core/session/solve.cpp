@@ -205,8 +205,9 @@ void Solve::Impl::refine() {
 }
 
 // A step of the mode, or some where each is a shot along a column at hand or soon computed: looking at what
-// it leaves takes as long. A mode that cannot go on ends the solve as failed, with what it has.
-std::optional<std::size_t> Solve::Impl::iterate(std::uint64_t most_shots) {
+// it leaves takes as long. A mode that cannot go on ends the solve as failed, with what it has. Returns false
+// where nothing is left to shoot.
+bool Solve::Impl::iterate(std::uint64_t most_shots) {
   if (!mode) mode = options.bounces ? makeBounces(*options.bounces) : mode_row->make();
   if (options.max_shots && *options.max_shots > measures.shots)
     most_shots = std::min(most_shots, *options.max_shots - measures.shots);
@@ -214,19 +215,20 @@ std::optional<std::size_t> Solve::Impl::iterate(std::uint64_t most_shots) {
   most_shots =
       std::min(most_shots, kReceiversAtOnce / std::max<std::uint64_t>(1, transport->receiverCount()));
   const std::uint64_t computed = transport->computed();
-  std::size_t shots = 0;
+  const std::uint64_t shots_before = measures.shots;
   try {
     for (;;) {
       const std::optional<std::size_t> used = mode->step(*state, *transport);
-      if (!used && shots == 0) return std::nullopt;
-      shots += used.value_or(0);
-      if (used != 1 || shots >= most_shots || transport->computed() >= computed + kColumnsAtOnce)
-        return shots;
+      if (!used && measures.shots == shots_before) return false;
+      measures.shots += used.value_or(0);
+      if (used != 1 || measures.shots - shots_before >= most_shots ||
+          transport->computed() >= computed + kColumnsAtOnce)
+        return true;
     }
   } catch (const IterationFailure& problem) {
     mode_failed = true;
     fail(problem.kind(), problem.what(), problem.advice());
-    return shots;
+    return true;
   }
 }
 
@@ -238,40 +240,51 @@ Solve::Solve(Scene scene, SolveOptions options, std::function<gl::Context&()> gl
 
 Solve::~Solve() = default;
 
+// What a step throws, such as a driver that gives up or memory that is used up, ends the solve with what was
+// shot before: columns are computed before anything is shot along them.
 void Solve::step(std::uint64_t most_shots) {
   Impl& s = *impl_;
   if (s.progress_state != SolveState::kRunning) return;
   s.wakeClocks();
-  if (s.finished_by) return s.sharpen();
+  try {
+    s.advance(most_shots);
+  } catch (...) {
+    const Error error = presentError();
+    s.mode.reset();
+    s.fail(error.kind(), error.what(), error.advice());
+  }
+}
+
+void Solve::Impl::advance(std::uint64_t most_shots) {
+  if (finished_by) return sharpen();
   bool nothing_left = false;
   bool refined = true;
-  if (s.drafts.due(*s.transport, s.measures.solverBound() <= s.target())) {
-    s.refine();
-  } else if (s.lacksBound() && s.completeColumns()) {
+  if (drafts.due(*transport, measures.solverBound() <= target())) {
+    refine();
+  } else if (lacksBound() && completeColumns()) {
     refined = false;
-  } else if (const auto used = s.iterate(most_shots)) {
-    s.measures.shots += *used;
+  } else if (iterate(most_shots)) {
     refined = false;
   } else {
-    nothing_left = s.measures.drafts == 0;
+    nothing_left = measures.drafts == 0;
     refined = !nothing_left;
-    if (refined) s.refine();
+    if (refined) refine();
   }
-  s.learnSolution();
-  s.measure();
-  if (refined) s.stagnation.restart(s.measures);  // a better column brings unshot light of its own
-  if (s.progress_state == SolveState::kRunning) s.checkLimits();
-  if (s.progress_state == SolveState::kLimit || nothing_left) s.measures.bounds = s.budget->sharpen();
-  if (s.progress_state == SolveState::kRunning && nothing_left && !s.finished_by) {
-    if (s.options.bounces && !s.state->onlyRoundingUnshot()) {
-      s.stop(SolveState::kConverged, "bounces");
+  learnSolution();
+  measure();
+  if (refined) stagnation.restart(measures);  // a better column brings unshot light of its own
+  if (progress_state == SolveState::kRunning) checkLimits();
+  if (progress_state == SolveState::kLimit || nothing_left) measures.bounds = budget->sharpen();
+  if (progress_state == SolveState::kRunning && nothing_left && !finished_by) {
+    if (options.bounces && !state->onlyRoundingUnshot()) {
+      stop(SolveState::kConverged, "bounces");
     } else {
-      s.finish("nothing unshot");
+      finish("nothing unshot");
     }
   }
-  if (s.progress_state == SolveState::kRunning && !s.finished_by) s.checkStagnation();
-  s.noteMissingRoom();
-  s.record();
+  if (progress_state == SolveState::kRunning && !finished_by) checkStagnation();
+  noteMissingRoom();
+  record();
 }
 
 void Solve::again() {

@@ -84,9 +84,10 @@ struct Solve::Impl {
   void sharpen();
   void record();
   void refine();
+  void advance(std::uint64_t most_shots);
   bool lacksBound() const;
   bool completeColumns();
-  std::optional<std::size_t> iterate(std::uint64_t most_shots);
+  bool iterate(std::uint64_t most_shots);
 };
 
 }  // namespace unshot

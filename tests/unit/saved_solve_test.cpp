@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <new>
 
 #include "support/solving.h"
 #include "support/temp_folder.h"
@@ -195,6 +196,70 @@ TEST(SavedSolves, AreOfOneSceneAlone) {
     EXPECT_EQ(error.where(), (folder.path() / "solve").string());
   }
 }
+
+// Gives `left` columns and then throws what `failure` does.
+class FailingMethod final : public FormFactorMethod {
+ public:
+  FailingMethod(std::unique_ptr<FormFactorMethod> method, int left, std::function<void()> failure)
+      : method_(std::move(method)), left_(left), failure_(std::move(failure)) {}
+  ReceiverKind receiverKind() const override { return method_->receiverKind(); }
+  Column column(std::uint32_t q) override {
+    if (left_-- <= 0) failure_();
+    return method_->column(q);
+  }
+  Row row(std::uint32_t v) override { return method_->row(v); }
+
+ private:
+  std::unique_ptr<FormFactorMethod> method_;
+  int left_;
+  std::function<void()> failure_;
+};
+
+struct Failure {
+  std::string_view name, mode;
+  std::function<void()> raise;
+  ErrorKind kind;
+};
+
+class StepThatThrows : public testing::TestWithParam<Failure> {};
+
+// A driver that gives up, memory that is used up: what was shot before stands, can be saved, and goes on.
+TEST_P(StepThatThrows, LeavesASolveThatCanBeSavedAndGoOn) {
+  const Failure& failure = GetParam();
+  const TempFolder folder;
+  Case c{"rays", failure.mode};
+  SolveOptions options = optionsOf(c);
+  options.wrap_form_factors = [&](std::unique_ptr<FormFactorMethod> method) {
+    return std::make_unique<FailingMethod>(std::move(method), 20, failure.raise);
+  };
+  const auto solve = begun(room(), options);
+  run(*solve);
+  ASSERT_EQ(solve->state(), SolveState::kFailed);
+  EXPECT_EQ(solve->failure().value().kind(), failure.kind);
+  EXPECT_FALSE(solve->failure()->advice().empty());
+  EXPECT_GT(solve->measures().rows, 10u);
+  EXPECT_NEAR(solve->energy().residual(), 0, 1e-9 * solve->energy().emitted);
+  solve->save(folder.path() / "solve");
+  const auto next = resumed(room(), optionsOf(c), folder.path() / "solve");
+  EXPECT_EQ(next->measures().shots, solve->measures().shots);
+  run(*next);
+  EXPECT_EQ(next->state(), SolveState::kConverged);
+  const auto through = solved(room(), optionsOf(c));
+  EXPECT_LE(differenceOf(next->snapshot(), through->snapshot()),
+            next->measures().solverBound() + through->measures().solverBound());
+}
+
+const Failure kFailures[] = {
+    {"MemoryUsedUp", "southwell", [] { throw std::bad_alloc(); }, ErrorKind::kEnvironment},
+    {"MemoryUsedUpInASweep", "jacobi", [] { throw std::bad_alloc(); }, ErrorKind::kEnvironment},
+    {"MemoryUsedUpInAProduct", "gmres", [] { throw std::bad_alloc(); }, ErrorKind::kEnvironment},
+    {"DriverGivesUp", "southwell",
+     [] { throw Error(ErrorKind::kEnvironment, "OpenGL error GL_CONTEXT_LOST", {}, "another --gl"); },
+     ErrorKind::kEnvironment},
+};
+
+INSTANTIATE_TEST_SUITE_P(Solves, StepThatThrows, testing::ValuesIn(kFailures),
+                         [](const auto& row) { return std::string(row.param.name); });
 
 // What is asked for the first time stays what it was where saving fails.
 TEST(SavedSolves, LeaveTheFileBeforeWhereTheyCannotBeWritten) {
