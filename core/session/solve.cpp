@@ -196,7 +196,9 @@ void Solve::Impl::record() {
   const auto steps = [](const Measures& m) { return m.shots + m.rows; };
   const std::uint64_t last = steps(history.back().measures), now = steps(measures);
   const bool ended = progress_state != SolveState::kRunning && now > last;
-  if (ended || now >= last + std::max<std::uint64_t>(1, last / 100)) history.push_back({measures});
+  if (!ended && now < last + std::max<std::uint64_t>(1, last / 100)) return;
+  history.push_back({measures});
+  checkEnergy();
 }
 
 void Solve::Impl::refine() {

@@ -76,6 +76,7 @@ struct Solve::Impl {
   bool reached();
   void checkLimits();
   void checkStagnation();
+  void checkEnergy();
   void noteMissingRoom();
   void noteMissedError();
   double target() const;

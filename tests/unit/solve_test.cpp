@@ -213,5 +213,36 @@ TEST(PublishPace, KeepsTheIntervalAndATenthOfTheTime) {
   EXPECT_EQ(PublishPace::interval(2), 2);
 }
 
+// Twice what the column says, of light that is neither escaped nor lost.
+class DoublingMethod final : public FormFactorMethod {
+ public:
+  explicit DoublingMethod(std::unique_ptr<FormFactorMethod> method) : method_(std::move(method)) {}
+  ReceiverKind receiverKind() const override { return method_->receiverKind(); }
+  Column column(std::uint32_t q) override {
+    Column out = method_->column(q);
+    for (float& k : out.k) k *= 2;
+    return out;
+  }
+  Row row(std::uint32_t v) override { return method_->row(v); }
+
+ private:
+  std::unique_ptr<FormFactorMethod> method_;
+};
+
+TEST(Solve, StopsWhereEnergyIsNotConserved) {
+  SolveOptions options;
+  options.form_factors = "closed-form";
+  options.elements = 120;
+  options.wrap_form_factors = [](std::unique_ptr<FormFactorMethod> method) {
+    return std::make_unique<DoublingMethod>(std::move(method));
+  };
+  Solve solve(asset("two_patches.obj"), options,
+              []() -> gl::Context& { throw Error(ErrorKind::kInternal, "closed forms do not draw"); });
+  finish(solve);
+  ASSERT_EQ(solve.state(), SolveState::kFailed);
+  EXPECT_EQ(solve.failure().value().kind(), ErrorKind::kInternal);
+  EXPECT_THAT(solve.failure()->what(), testing::HasSubstr("energy is not conserved"));
+}
+
 }  // namespace
 }  // namespace unshot
