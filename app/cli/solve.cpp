@@ -134,10 +134,11 @@ void printFrom(std::size_t first, const Diagnostics& all) {
   printDiagnostics(std::cerr, Diagnostics(all.begin() + static_cast<std::ptrdiff_t>(first), all.end()));
 }
 
-/// Writes and says what was reached; returns the exit code.
+/// Writes and says what was reached; returns the exit code. `written`, `failure`: what was written before,
+/// and what could not be.
 int finishSolve(const SolveRequest& request, const Solve& solve, LazyContext& context,
                 std::span<const Probe> probes, double load_seconds, const InterruptFlag& interrupted,
-                Saver& saver) {
+                std::vector<std::string> written, std::optional<Error> failure) {
   const Snapshot snapshot = solve.snapshot();
   const auto record = [&] {
     RunRecord r = recordOf(solve);
@@ -155,11 +156,10 @@ int finishSolve(const SolveRequest& request, const Solve& solve, LazyContext& co
                       .probes = probes,
                       .warn = [](const Diagnostic& d) { printDiagnostics(std::cerr, {d}); }};
   std::vector<WriteJob> jobs;
-  if (!request.save.empty()) jobs.push_back({request.save, [&] { saver.save(solve); }});
   for (const Output& output : request.outputs)
     jobs.push_back({output.path, [&] { output.exporter->write(source, output.path); }});
-  std::vector<std::string> written;
-  const std::optional<Error> failure = writeAll(std::move(jobs), written);
+  const std::optional<Error> other_failure = writeAll(std::move(jobs), written);
+  if (!failure) failure = other_failure;
   printSummary(std::cout, record(), solve.options(), written);
   std::cout.flush();
   if (failure) throw *failure;
@@ -206,9 +206,15 @@ int solveScene(const SolveRequest& request, const InterruptFlag& interrupted) {
   const std::size_t said_before_steps = solve.diagnostics().size();
   Saver saver(request.save, request.save_every);
   runSteps(solve, interrupted, progress, saver);
-  if (!interrupted.raised()) estimateErrors(solve, progress);
+  // First, since it takes no memory, of which there may be none left.
+  std::vector<WriteJob> saving;
+  if (!request.save.empty()) saving.push_back({request.save, [&] { saver.save(solve); }});
+  std::vector<std::string> written;
+  std::optional<Error> failure = writeAll(std::move(saving), written);
+  if (!interrupted.raised() && solve.state() != SolveState::kFailed) estimateErrors(solve, progress);
   printFrom(said_before_steps, solve.diagnostics());
-  return finishSolve(request, solve, context, probes, load_seconds, interrupted, saver);
+  return finishSolve(request, solve, context, probes, load_seconds, interrupted, std::move(written),
+                     std::move(failure));
 }
 
 int runSolve(const SolveRequest& request) {

@@ -66,6 +66,11 @@ const Column& Transport::keep(std::uint32_t q, Column column) {
   return passing_;
 }
 
+void Transport::release() {
+  for (std::unique_ptr<Column>& column : kept_) column.reset();
+  kept_bytes_ = kept_count_ = 0;
+}
+
 std::pair<Column, const Column&> Transport::refine(std::uint32_t q) {
   Column draft = column(q);
   if (kept_[q]) {

@@ -34,6 +34,8 @@ class Transport {
   /// Takes column q as it was computed before, in the place of computing it, and tells the watcher of it;
   /// false where there is no room. For columns that were not asked for yet.
   bool restore(std::uint32_t q, Column column);
+  /// Gives the memory of all kept columns back; they are computed again as they are asked for.
+  void release();
   /// Column q, not asked for yet, is to be of this quality, drafts allowed or not.
   void expect(std::uint32_t q, ColumnQuality quality) { expected_[q] = quality; }
   bool draftsAllowed() const { return drafts_allowed_; }

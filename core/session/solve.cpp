@@ -253,6 +253,8 @@ void Solve::step(std::uint64_t most_shots) {
   } catch (...) {
     const Error error = presentError();
     s.mode.reset();
+    // What was reached can be shown and saved without them, which needs memory too.
+    if (error.kind() == ErrorKind::kEnvironment) s.transport->release();
     s.fail(error.kind(), error.what(), error.advice());
   }
 }

@@ -5,6 +5,7 @@
 
 #include "base/random.h"
 #include "support/run_program.h"
+#include "support/sanitized.h"
 #include "support/scenes.h"
 
 namespace unshot {
@@ -14,6 +15,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing_support::boxObj;
 using testing_support::eventually;
+using testing_support::kSanitized;
 using testing_support::ProgramResult;
 using testing_support::ProgramRun;
 using testing_support::runProgram;
@@ -95,6 +97,38 @@ TEST(Save, WhatCannotBeSavedStopsNothingElse) {
   EXPECT_THAT(result.err, AllOf(HasSubstr("/dev/full: cannot be written: No space left on device"),
                                 HasSubstr("the solve goes on, and is saved again later")));
   EXPECT_TRUE(folder.has("a.ply"));
+}
+
+// A disk that has room for the PLY file and not for the solve: what was saved before stays.
+TEST(Save, AFileThatFindsNoRoomLeavesTheOneBefore) {
+  const TempFolder folder;
+  writeRoom(folder, boxObj());
+  ASSERT_EQ(runProgram(folder, {"solve", "room.obj", "--save", "s.unshot"}).code, 0);
+  const std::string before = folder.read("s.unshot");
+  const ProgramResult result = runProgram(
+      folder, with({"solve", "room.obj", "--save", "s.unshot", "--ply", "a.ply"}, kFineMesh), {0, 1'000'000});
+  EXPECT_EQ(result.code, 4);
+  EXPECT_THAT(result.err, HasSubstr("s.unshot: cannot be written: File too large"));
+  EXPECT_EQ(folder.read("s.unshot"), before);
+  EXPECT_TRUE(folder.has("a.ply"));
+  EXPECT_EQ(folder.names().size(), 4u);  // no temporary file
+}
+
+// Memory that is used up while form factors are computed.
+TEST(Save, MemoryThatIsUsedUpEndsTheSolveWithWhatItHas) {
+  if (kSanitized) GTEST_SKIP() << "a sanitizer takes terabytes of addresses";
+  const TempFolder folder;
+  writeRoom(folder, boxObj());
+  const std::vector<std::string> large = {"--form-factors", "rays", "--elements", "60000", "--error", "1e-6"};
+  const ProgramResult result = runProgram(
+      folder, with({"solve", "room.obj", "--save", "s.unshot", "--ply", "a.ply"}, large), {400'000'000});
+  EXPECT_EQ(result.code, 4);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("there is not enough memory"), HasSubstr("--keep")));
+  EXPECT_TRUE(folder.has("a.ply"));
+  const ProgramResult resumed =
+      runProgram(folder, {"solve", "room.obj", "--resume", "s.unshot", "--keep", "50", "--max-shots", "10"},
+                 {400'000'000});
+  EXPECT_EQ(resumed.code, 5) << resumed.err;
 }
 
 TEST(Save, AFileThatIsNoSavedSolveIsRefused) {

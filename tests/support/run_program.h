@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -20,10 +21,16 @@ struct ProgramResult {
   std::string out, err;
 };
 
+/// What a run may take of the machine [bytes]; 0: as much as it likes.
+struct ProgramLimits {
+  rlim_t memory = 0, file_size = 0;
+};
+
 /// A run of UNSHOT_PROGRAM in `folder`.
 class ProgramRun {
  public:
-  ProgramRun(const std::filesystem::path& folder, const std::vector<std::string>& arguments) {
+  ProgramRun(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+             const ProgramLimits& limits = {}) {
     std::vector<std::string> words = {UNSHOT_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
@@ -36,6 +43,8 @@ class ProgramRun {
       redirect("/dev/null", O_RDONLY, STDIN_FILENO);
       redirect(out.c_str(), O_WRONLY | O_CREAT, STDOUT_FILENO);
       redirect(err.c_str(), O_WRONLY | O_CREAT, STDERR_FILENO);
+      limit(RLIMIT_AS, limits.memory);
+      limit(RLIMIT_FSIZE, limits.file_size);
       if (::chdir(folder.c_str()) == 0) ::execv(argv[0], argv.data());
       ::_exit(127);
     }
@@ -57,6 +66,10 @@ class ProgramRun {
   }
 
  private:
+  static void limit(__rlimit_resource_t resource, rlim_t bytes) {
+    const rlimit both{bytes, bytes};
+    if (bytes > 0 && ::setrlimit(resource, &both) != 0) ::_exit(125);
+  }
   static void redirect(const char* file, int flags, int target) {
     const int descriptor = ::open(file, flags, 0600);
     if (descriptor < 0 || ::dup2(descriptor, target) < 0) ::_exit(126);
@@ -67,8 +80,9 @@ class ProgramRun {
   int status_ = -1;
 };
 
-inline ProgramResult runProgram(const TempFolder& folder, const std::vector<std::string>& arguments) {
-  return ProgramRun(folder.path(), arguments).wait();
+inline ProgramResult runProgram(const TempFolder& folder, const std::vector<std::string>& arguments,
+                                const ProgramLimits& limits = {}) {
+  return ProgramRun(folder.path(), arguments, limits).wait();
 }
 
 /// Waits until `ready`, looking again every 5 ms; false after two minutes.
