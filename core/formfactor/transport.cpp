@@ -29,6 +29,7 @@ Column Transport::compute(std::uint32_t q) {
 Column Transport::compute(std::uint32_t q, ColumnQuality wanted) {
   Column column = wanted == ColumnQuality::kFull ? method_->column(q) : method_->draft(q, wanted);
   if (!column.at_hand) ++computed_;
+  if (!closure_.scale.empty()) close(q, column);
   setQuality(q, column);
   return column;
 }
@@ -84,6 +85,29 @@ std::pair<Column, const Column&> Transport::refine(std::uint32_t q) {
   const Column& better = keep(q, compute(q, once ? ColumnQuality::kOnePoint : ColumnQuality::kFull));
   if (better.quality == ColumnQuality::kFull) ++refined_;
   return {std::move(draft), better};
+}
+
+// What a column brings is no longer what it was: the difference is a defect.
+void Transport::close(std::uint32_t q, Column& column) const {
+  if (closure_.exact[q]) return;
+  double arrives = 0;
+  for (std::size_t i = 0; i < column.k.size(); ++i) {
+    const std::uint32_t v =
+        column.receiver.empty() ? column.first + static_cast<std::uint32_t>(i) : column.receiver[i];
+    column.k[i] *= closure_.scale[v];
+    arrives += receivers_.area[v] * static_cast<double>(column.k[i]);
+  }
+  column.defect = 1 - column.escape - arrives / patch_area_[q];
+}
+
+void Transport::setClosure(RowClosure closure) {
+  closure_ = std::move(closure);
+  ++replaced_;
+  for (std::uint32_t q = 0; q < patchCount(); ++q) {
+    if (!kept_[q]) continue;
+    close(q, *kept_[q]);
+    if (watcher_) watcher_(q, *kept_[q]);
+  }
 }
 
 Row Transport::row(std::uint32_t v) {

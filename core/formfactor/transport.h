@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "formfactor/closure.h"
 #include "formfactor/method.h"
 
 namespace unshot {
@@ -57,6 +58,13 @@ class Transport {
   std::uint64_t replaced() const { return replaced_; }
   /// Replaces the draft of q by the next better column: first = before, second = from now on.
   std::pair<Column, const Column&> refine(std::uint32_t q);
+  /// From now on each value of K is scaled by its row's factor, in columns at hand and in those to come, and
+  /// the watcher is told of the former.
+  void setClosure(RowClosure closure);
+  /// The same for columns that were scaled before they are restored: from now on alone.
+  void restoreClosure(RowClosure closure) { closure_ = std::move(closure); }
+  /// Empty scale: there is none.
+  const RowClosure& closure() const { return closure_; }
   Row row(std::uint32_t v);
   /// out = K d, channel by channel. `d` one per patch, `out` one per receiver.
   void product(std::span<const glm::dvec3> d, std::span<glm::dvec3> out);
@@ -73,6 +81,7 @@ class Transport {
   Column compute(std::uint32_t q, ColumnQuality wanted);
   const Column& keep(std::uint32_t q, Column column);
   void setQuality(std::uint32_t q, const Column& column);
+  void close(std::uint32_t q, Column& column) const;
 
   std::unique_ptr<FormFactorMethod> method_;
   Receivers receivers_;
@@ -86,6 +95,7 @@ class Transport {
   std::vector<std::optional<ColumnQuality>> quality_;   // of the columns used so far
   std::vector<std::optional<ColumnQuality>> expected_;  // of others, where that is decided
   std::array<std::size_t, 3> counts_{};                 // by quality
+  RowClosure closure_;
   bool drafts_allowed_ = false;
   std::function<void(std::uint32_t, const Column&)> watcher_;
 };

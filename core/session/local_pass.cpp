@@ -90,20 +90,24 @@ void LocalPass::advance(Transport& transport) {
   const double until = wallSeconds() + kSeconds;
   for (; running() && wallSeconds() < until; ++next_) {
     // What emitters reflect goes the way of their emission, along columns that are exact already.
-    if (!mesh_.emits(next_) && transport.isKept(next_)) gather(next_, transport.column(next_));
+    if (!mesh_.emits(next_) && transport.isKept(next_))
+      gather(next_, transport.column(next_), transport.closure());
   }
   if (!running()) irradiance_ = std::move(sum_);
 }
 
-void LocalPass::gather(std::uint32_t q, const Column& column) {
+void LocalPass::gather(std::uint32_t q, const Column& column, const RowClosure& closure) {
   if (!column.receiver.empty()) return;
   const glm::dvec3& middle = polygons_.middle(q);
+  const auto scale = [&](std::uint32_t v) {
+    return closure.scale.empty() || closure.exact[q] ? 1.0 : static_cast<double>(closure.scale[v]);
+  };
   tree_.nearSegment(middle, middle, kNear * polygons_.radius(q), [&](std::uint32_t place) {
     const std::uint32_t v = first_receiver_ + place;
     bool near = false;
     glm::dvec3 light(0.0);
     for (const ReceiverView& view : receivers_.viewsOf(v)) light += view.weight * gather(view, q, near);
-    if (near) sum_[v] += light - static_cast<double>(column.k[v - column.first]) * patch_light_[q];
+    if (near) sum_[v] += scale(v) * light - static_cast<double>(column.k[v - column.first]) * patch_light_[q];
   });
 }
 

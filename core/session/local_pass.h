@@ -46,7 +46,7 @@ class LocalPass {
     double radius = 0;
   };
   void makeGroups();
-  void gather(std::uint32_t q, const Column& column);
+  void gather(std::uint32_t q, const Column& column, const RowClosure& closure);
   glm::dvec3 gather(const ReceiverView& view, std::uint32_t q, bool& near);
 
   const Mesh& mesh_;

@@ -52,6 +52,9 @@ void transferHead(Archive& a, Saved& s) {
   transferPlan(a, s.plan);
   a.array(s.quality);
   a.value(s.drafts_allowed);
+  a.array(s.closure.scale);
+  a.array(s.closure.exact);
+  a.value(s.closure_pending);
   a.value(s.seconds);
   a.value(s.cpu_seconds);
   a.value(s.mesh_seconds);
@@ -125,6 +128,8 @@ void Solve::save(const std::filesystem::path& path) const {
     head.quality.push_back(quality ? static_cast<std::uint8_t>(*quality) : SavedSolve::kUnused);
   }
   head.drafts_allowed = transport.draftsAllowed();
+  head.closure = transport.closure();
+  head.closure_pending = s.closure_pending;
   head.seconds = s.measures.seconds;
   head.cpu_seconds = s.measures.cpu_seconds;
   head.mesh_seconds = s.seconds.mesh;
@@ -161,6 +166,11 @@ void Solve::Impl::restore(SavedSolve& saved) {
   if (saved.quality.size() != transport->patchCount() || !state->setValues(std::move(saved.values)))
     refuse("does not fit its own mesh");
   plan = std::move(saved.plan);
+  closure_pending = closure_pending && saved.closure_pending;
+  if (!saved.closure.scale.empty() && (saved.closure.scale.size() != transport->receiverCount() ||
+                                       saved.closure.exact.size() != transport->patchCount()))
+    refuse("does not fit its own mesh");
+  transport->restoreClosure(std::move(saved.closure));
   for (std::uint32_t q = 0; q < transport->patchCount(); ++q) {
     if (saved.quality[q] != SavedSolve::kUnused)
       transport->expect(q, static_cast<ColumnQuality>(saved.quality[q]));

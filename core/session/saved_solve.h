@@ -38,6 +38,8 @@ struct SavedSolve {
   std::vector<std::uint8_t> quality;  ///< ColumnQuality, one per source; kUnused where a column is not in use
   std::vector<std::pair<std::uint32_t, Column>> columns;  ///< those at hand
   bool drafts_allowed = false;
+  RowClosure closure;  ///< that the columns have been scaled by; no scale: they have not
+  bool closure_pending = false;
   std::vector<glm::dvec3> local_irradiance;  ///< LocalPass::irradiance
 
   double seconds = 0, cpu_seconds = 0, mesh_seconds = 0, plan_seconds = 0;

@@ -76,7 +76,9 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl, const CancelT
     // What the sky shines on need not see each other.
     if (q < mesh->patch_count) ambient->sees(q, column, transport->receivers());
     budget->columnComputed(q, column);
+    if (column.escape > 0 && escape.empty() && sky == glm::dvec3(0.0)) closure_pending = false;
   });
+  planClosure(cancel);
   if (transport->receivers().layered() && !options.bounces)
     local_pass =
         std::make_unique<LocalPass>(*mesh, transport->receivers(), form_factors_key != "closed-form");
@@ -132,7 +134,9 @@ void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl, const C
 }
 
 void Solve::Impl::chooseMode(const std::string& key) {
-  const std::string chosen = key != "auto" ? key : options.bounces ? "jacobi" : "southwell";
+  // Where much is reflected, shot after shot takes as many bounces as light does.
+  const std::string soonest = options.soonest && high_gain ? "gmres" : "southwell";
+  const std::string chosen = key != "auto" ? key : options.bounces ? "jacobi" : soonest;
   if (options.bounces && chosen != "jacobi") {
     throw Error(ErrorKind::kUsage,
                 "light of a number of bounces takes the mode 'jacobi', not '" + chosen + "'", {},
@@ -263,16 +267,20 @@ void Solve::Impl::advance(std::uint64_t most_shots) {
   if (finished_by) return sharpen();
   bool nothing_left = false;
   bool refined = true;
-  if (drafts.due(*transport, measures.solverBound() <= target())) {
+  if (closeRows()) {
+    // Nothing else in this step: what it has brought is looked at first.
+  } else if (drafts.due(*transport, measures.solverBound() <= target())) {
     refine();
-  } else if (lacksBound() && completeColumns()) {
+  } else if ((lacksBound() || closureIsUrgent()) && completeColumns()) {
     refined = false;
   } else if (iterate(most_shots)) {
     refined = false;
+  } else if (closureIsDue() && completeColumns()) {
+    refined = false;
   } else {
-    nothing_left = measures.drafts == 0;
+    nothing_left = measures.drafts == 0 && !closureIsDue();
     refined = !nothing_left;
-    if (refined) refine();
+    if (measures.drafts > 0) refine();
   }
   learnSolution();
   measure();

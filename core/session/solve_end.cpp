@@ -54,10 +54,12 @@ bool Solve::Impl::lacksBound() const {
          measures.unshot_fraction < kLittleUnshot * target();
 }
 
-// Computes a column that no shot has asked for yet; false where none is left that light could take.
+// Computes a column that no shot has asked for yet; false where none is left that light could take, or that
+// closing rows needs.
 bool Solve::Impl::completeColumns() {
   for (; next_column < transport->patchCount(); ++next_column) {
-    if (transport->quality(next_column) || state->reflectance()[next_column] == glm::dvec3(0.0)) continue;
+    const bool black = state->reflectance()[next_column] == glm::dvec3(0.0);
+    if (transport->quality(next_column) || (black && !closureIsDue())) continue;
     transport->column(next_column++);
     return true;
   }
@@ -67,7 +69,7 @@ bool Solve::Impl::completeColumns() {
 // Whether the error asked for is reached, held against the bound as it is at its sharpest (which may be one
 // per patch where the last was for the total).
 bool Solve::Impl::reached() {
-  if (measures.solverBound() > target() || measures.drafts > 0) return false;
+  if (measures.solverBound() > target() || measures.drafts > 0 || closureIsDue()) return false;
   measures.bounds = SolverBounds::tighter(measures.bounds, budget->sharpen());
   return measures.solverBound() <= target();
 }
@@ -86,6 +88,11 @@ void Solve::Impl::checkLimits() {
 
 void Solve::Impl::checkStagnation() {
   if (options.bounces || !stagnation.found(measures, mesh->patch_count)) return;
+  if (closureIsDue() && !closure_hurries) {
+    // Rows that sum to more than 1 may be all that keeps it up.
+    closure_hurries = true;
+    return;
+  }
   if (nothingDiesOut(*state)) {
     fail(ErrorKind::kInput,
          "no finite solution: the walls that the light reaches reflect all of it (reflectance 1) and let "

@@ -1,5 +1,6 @@
 // What a solve holds, for its own files alone: solve.cpp, which sets it up and takes its steps, and
 // solve_end.cpp, which says when and why it ends;
+// row_closing.cpp, which closes its rows;
 // and saved_solve.cpp, which writes it into a file and takes it up again.
 #pragma once
 
@@ -52,6 +53,11 @@ struct Solve::Impl {
   std::vector<HistoryEntry> history;
   bool resting = false, mode_failed = false, room_noted = false, error_noted = false;
   std::uint32_t next_column = 0;  // all before are known, or nothing arrives there
+  // Whether rows are still to be closed (formfactor/closure.h), and what escapes of each receiver's view
+  // where that is known; empty: no surface has seen an opening so far.
+  bool closure_pending = false, high_gain = false;
+  bool closure_hurries = false;  // without it the solve does not get anywhere
+  std::vector<float> escape;
   DraftRefinement drafts;
   double measured_wall = 0, measured_cpu = 0;  // when `measures` were taken
   SharedFields shared;
@@ -88,6 +94,10 @@ struct Solve::Impl {
   void advance(std::uint64_t most_shots);
   bool lacksBound() const;
   bool completeColumns();
+  void planClosure(const CancelToken& cancel);
+  bool closureIsDue() const;
+  bool closureIsUrgent() const;
+  bool closeRows();
   bool iterate(std::uint64_t most_shots);
 };
 

@@ -88,6 +88,22 @@ void RadiosityState::replaceColumn(std::uint32_t q, const Column& before, const 
   receive(q, -values_.shot[q], before);
 }
 
+void RadiosityState::renew(Transport& transport) {
+  std::fill(values_.irradiance.begin(), values_.irradiance.end(), glm::dvec3(0.0));
+  std::fill(values_.direct.begin(), values_.direct.end(), glm::dvec3(0.0));
+  values_.escaped_power = values_.defect_power = 0;
+  values_.unshot = emission_;
+  for (std::uint32_t q = 0; q < patchCount(); ++q) {
+    const glm::dvec3 d = values_.shot[q], emitted = emission_[q] - values_.emission_left[q];
+    values_.unshot[q] -= d;
+    if (d == glm::dvec3(0.0) && emitted == glm::dvec3(0.0)) continue;
+    const Column& column = transport.column(q);
+    receive(q, d, column);
+    if (emitted != glm::dvec3(0.0))
+      column.forEach([&](std::uint32_t v, double k) { values_.direct[v] += k * emitted; });
+  }
+}
+
 double RadiosityState::unshotPower() const {
   double sum = 0;
   for (std::size_t q = 0; q < values_.unshot.size(); ++q) {

@@ -53,6 +53,10 @@ class RadiosityState {
   /// are column q as it was and as it is. Not for emitters, whose direct light has no second form.
   void replaceColumn(std::uint32_t q, const Column& before, const Column& after);
 
+  /// Better form factors for all: H, H_d and U follow from S and the columns of `transport`, which is that of
+  /// the state; S stays.
+  void renew(Transport& transport);
+
   const std::vector<glm::dvec3>& emission() const { return emission_; }        ///< E, one per patch [W/m^2]
   const std::vector<glm::dvec3>& reflectance() const { return reflectance_; }  ///< rho, one per patch
   const std::vector<glm::dvec3>& shot() const { return values_.shot; }         ///< S, one per patch [W/m^2]
