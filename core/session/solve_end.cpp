@@ -83,8 +83,9 @@ void Solve::Impl::checkLimits() {
 }
 
 void Solve::Impl::checkStagnation() {
-  if (options.bounces || !stagnation.found(measures, mesh->patch_count)) return;
-  if (nothingDiesOut(*state)) {
+  const auto hopeless = [this] { return nothingDiesOut(*state); };
+  if (options.bounces || !stagnation.found(measures, mesh->patch_count, hopeless)) return;
+  if (hopeless()) {
     fail(ErrorKind::kInput,
          "no finite solution: the walls that the light reaches reflect all of it (reflectance 1) and let "
          "none out, so "

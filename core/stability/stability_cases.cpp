@@ -37,7 +37,7 @@ std::vector<Figure> litCubeFigures(const Solve& solve, const std::array<const Li
   const auto face = [&](const char* name, double LitCubeTruth::*member) {
     glm::dvec3 expected;
     for (int c = 0; c < 3; ++c) expected[c] = emission[c] * (truth[static_cast<std::size_t>(c)]->*member);
-    append(out, meanFigures(solve, std::string(name) + " face", ofMaterial(name), expected, tolerance));
+    append(out, meanFigures(solve, std::string(name) + " face", frontOf(name), expected, tolerance));
   };
   face("lit", &LitCubeTruth::lit);
   face("opposite", &LitCubeTruth::opposite);

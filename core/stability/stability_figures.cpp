@@ -67,6 +67,12 @@ SideFilter ofMaterial(std::string_view name) {
   };
 }
 
+SideFilter frontOf(std::string_view name) {
+  return [material = ofMaterial(name)](const Mesh& mesh, const Side& side) {
+    return !side.back && material(mesh, side);
+  };
+}
+
 glm::dvec3 meanRadiosity(const Solve& solve, const SideFilter& filter) {
   return meanOf(solve.snapshot(), filter, radiosityOf);
 }

@@ -29,6 +29,7 @@ struct Figure {
 using SideFilter = std::function<bool(const Mesh&, const Side&)>;
 SideFilter everySide();
 SideFilter ofMaterial(std::string_view name);
+SideFilter frontOf(std::string_view name);
 
 /// Area means over the elements of the sides that count, of the state as it is shown [W/m^2]; not a number
 /// where there are none.
