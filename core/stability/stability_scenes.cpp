@@ -205,8 +205,18 @@ Scene wrongWindings() {
   }
   const auto block = glowing(b, {0.4, 0.7, 0.2});
   // Either way round within one face, too.
-  addBox(b, allOf(block), {0.2, 0.0, 0.3}, {0.3, 0, 0}, {0, 0.4, 0}, {0, 0, 0.15}, false);
-  addBox(b, allOf(block), {0.2, 0.0, 0.45}, {0.3, 0, 0}, {0, 0.4, 0}, {0, 0, 0.15}, true);
+  addBox(b, allOf(block), {0.2, 0.1, 0.3}, {0.3, 0, 0}, {0, 0.4, 0}, {0, 0, 0.15}, false);
+  addBox(b, allOf(block), {0.2, 0.1, 0.45}, {0.3, 0, 0}, {0, 0.4, 0}, {0, 0, 0.15}, true);
+  return b.finish();
+}
+
+Scene coplanarPlates() {
+  SceneBuilder b;
+  addUnitRoom(b);
+  const auto plate = glowing(b, {0.4, 0.7, 0.2});
+  b.quad(plate, {0.3, 1, 0.2}, {0.4, 0, 0}, {0, 0, 0.3});
+  b.quad(plate, {0, 0.23, 0.37}, {0, 0.5, 0}, {0, 0, 0.4});
+  addBox(b, allOf(plate), {0.3, 0, 0.35}, {0.35, 0, 0.1}, {0, 0.4, 0}, {-0.08, 0, 0.3}, false);
   return b.finish();
 }
 

@@ -44,6 +44,8 @@ Scene needleFan();
 Scene tJunctions();
 /// A box and a block whose faces are wound either way.
 Scene wrongWindings();
+/// Plates in the planes of ceiling and wall, and a block that stands on the floor by a face of its own.
+Scene coplanarPlates();
 /// Faces that are there two and three times, the same way round and the other.
 Scene duplicatedFaces();
 /// Two walls of reflectance 1.5, which counts as 1, or of -0.3, which counts as 0.
