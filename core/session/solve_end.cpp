@@ -31,6 +31,7 @@ void Solve::Impl::fail(ErrorKind kind, std::string why, std::string advice) {
 
 // Converged, but for the local pass.
 void Solve::Impl::finish(std::string why) {
+  if (!isLight(*state)) return failWithoutSolution();
   if (!local_pass) return stop(SolveState::kConverged, std::move(why));
   finished_by = std::move(why);
   local_pass->begin(*state, makeField(*mesh, transport->receivers(), state->irradiance()).elements);
@@ -86,16 +87,20 @@ void Solve::Impl::checkStagnation() {
   const auto hopeless = [this] { return nothingDiesOut(*state); };
   if (options.bounces || !stagnation.found(measures, mesh->patch_count, hopeless)) return;
   if (hopeless()) {
-    fail(ErrorKind::kInput,
-         "no finite solution: the walls that the light reaches reflect all of it (reflectance 1) and let "
-         "none out, so "
-         "it never dies out",
-         "a reflectance (Kd) below 1 for some wall, or --bounces N (or --max-shots N) for the light of a "
-         "number of bounces");
+    failWithoutSolution();
   } else {
     fail(ErrorKind::kInternal, "stagnation: the unshot power does not fall",
          "another --mode or --form-factors");
   }
+}
+
+void Solve::Impl::failWithoutSolution() {
+  fail(
+      ErrorKind::kInput,
+      "no finite solution: the walls that the light reaches reflect all of it (reflectance 1) and let none "
+      "out, so it never dies out",
+      "a reflectance (Kd) below 1 for some wall, or --bounces N (or --max-shots N) for the light of a number "
+      "of bounces");
 }
 
 // Once, when the first column finds no room.

@@ -1,5 +1,6 @@
 #include "session/stagnation.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace unshot {
@@ -11,6 +12,10 @@ namespace {
 // reflectance of 0.9999 some forty passes can be without loss; five hundred take 5 % then.
 constexpr std::uint64_t kHopelessPasses = 20, kStagnationPasses = 500;
 constexpr double kStagnationShare = 1e-4;
+// Of what is above zero: what modes that shoot back and forth leave below it.
+constexpr double kMostBelow = 0.01;
+// More than the form factors' single precision lets light have.
+constexpr double kMostBounces = 1e6;
 
 }  // namespace
 
@@ -40,6 +45,19 @@ bool nothingDiesOut(const RadiosityState& state) {
     }
   }
   return reflected >= (1 - kStagnationShare) * left;
+}
+
+bool isLight(const RadiosityState& state) {
+  for (int c = 0; c < 3; ++c) {
+    double shot = 0, below = 0, emitted = 0;
+    for (std::size_t q = 0; q < state.patchCount(); ++q) {
+      shot += state.area()[q] * std::max(state.shot()[q][c], 0.0);
+      below -= state.area()[q] * std::min(state.shot()[q][c], 0.0);
+      emitted += state.area()[q] * state.emission()[q][c];
+    }
+    if (below > kMostBelow * shot || shot > kMostBounces * emitted) return false;
+  }
+  return true;
 }
 
 }  // namespace unshot

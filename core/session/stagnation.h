@@ -25,4 +25,8 @@ class StagnationWatch {
 /// Whether the light still on its way goes from wall to wall that reflects all of it.
 bool nothingDiesOut(const RadiosityState& state);
 
+/// Whether what is shot can be light: some mode may solve a system that has no solution to within rounding,
+/// by values below zero or by far more than bounces could make of what is emitted.
+bool isLight(const RadiosityState& state);
+
 }  // namespace unshot

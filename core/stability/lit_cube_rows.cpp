@@ -37,27 +37,34 @@ std::vector<Figure> litCubeFigures(const Solve& solve, const std::array<const Li
 
 namespace {
 
+/// Tolerances say how much of the light a bounce may lose: 2 % at a reflectance of 0.9999 is two millionths.
 /// Fewer elements at a reflectance that takes tens of thousands of sweeps: there light is so even that the
 /// mesh has no part in the error.
 struct Furnace {
   double reflectance, tolerance;
   std::uint64_t elements;
   double error;
+  bool slow = false;
 };
 
+constexpr const char* kQuickFactors =
+    "factors of patches that emit little are within 0.3 %, and a sum of them that is 4e-6 off is 4 % of the "
+    "answer";
+
+constexpr double kMostReflectance = 0.9999;
 constexpr Furnace kFurnaces[] = {{0.5, 0.005, 600, 1e-5},
                                  {0.9, 0.005, 600, 1e-5},
                                  {0.99, 0.01, 300, 1e-4},
-                                 {0.999, 0.01, 96, 1e-3},
-                                 {0.9999, 0.02, 54, 5e-3}};
+                                 {0.999, 0.01, 96, 1e-3, true},
+                                 {kMostReflectance, 0.02, 54, 5e-3, true}};
 
-// Tolerances are those that were asked for: at rho = 0.9999 one of 2 % lets 2e-6 of the light at a bounce be
-// lost.
 }  // namespace
 
 void addFurnaces(Cases& cases) {
   for (const Furnace& f : kFurnaces) {
     const double rho = f.reflectance, tolerance = f.tolerance;
+    const std::vector<KnownException> exceptions = {{"rays", kQuickFactors, 3},
+                                                    {"hemicube-visibility", kQuickFactors, 3}};
     cases.push_back({.key = "furnace-" + numberText(rho),
                      .title = "closed cube, reflectance " + numberText(rho) + ", E = 1 on every wall",
                      .expected = "B = 1 / (1 - rho) = " + numberText(1 / (1 - rho)),
@@ -66,7 +73,8 @@ void addFurnaces(Cases& cases) {
                      .measure =
                          [=](const Solve& s) {
                            return evenFigures(s, glm::dvec3(1 / (1 - rho)), tolerance, 2 * tolerance);
-                         }});
+                         },
+                     .slow = f.slow});
     cases.push_back({.key = "lit-face-" + numberText(rho),
                      .title = "closed cube, reflectance " + numberText(rho) + ", one face lit",
                      .expected = "B of the lit, the opposite and the other faces",
@@ -75,7 +83,9 @@ void addFurnaces(Cases& cases) {
                      .measure =
                          [=, t = &litCubeTruth(rho)](const Solve& s) {
                            return litCubeFigures(s, {t, t, t}, glm::dvec3(1.0), tolerance);
-                         }});
+                         },
+                     .exceptions = rho == kMostReflectance ? exceptions : std::vector<KnownException>{},
+                     .slow = f.slow});
   }
 }
 
@@ -104,7 +114,8 @@ void addChannels(Cases& cases) {
                    .measure =
                        [=](const Solve& s) {
                          return litCubeFigures(s, {half, nine, most}, glm::dvec3(1.0), 0.01);
-                       }});
+                       },
+                   .slow = true});
   cases.push_back({.key = "channel-dark",
                    .title = "closed cube of reflectance 0.5, 0.9, 0.999, one face lit, not in blue",
                    .expected = "red and green as ever, blue exactly 0",

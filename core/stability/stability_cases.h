@@ -16,10 +16,13 @@
 
 namespace unshot {
 
-/// A mode or form-factor method that is known not to keep a case's tolerance.
+/// A mode or form-factor method that is known not to keep a case's tolerance. It is run all the same, and
+/// fails beyond what is known.
 struct KnownException {
   std::string_view key;
   std::string_view reason;
+  /// How many times the tolerance it is off at most; 0: it stops short, and says why.
+  double most = 0;
 };
 
 struct StabilityCase {
@@ -33,6 +36,7 @@ struct StabilityCase {
   std::vector<KnownException> exceptions = {};
   bool no_solution = false;  ///< a solve has to end as failed, and say that there is no finite solution
   bool large = false;        ///< may take kLargestSeconds
+  bool slow = false;         ///< takes thousands of sweeps: seconds in most modes
 };
 
 /// Wall time at which a solve counts as one that does not end; on two cores to themselves all but the largest

@@ -51,7 +51,7 @@ Figure exactFigure(const Solve& solve, const std::string& what, const SideFilter
 /// Whether the solve has said this (Diagnostic::code): 1 or 0.
 Figure saidFigure(const Solve& solve, std::string_view code);
 
-/// Whether every value that the solve shows is a finite number and none is below 0.
+/// Whether every value that the solve shows is a finite number and, where it has converged, none is below 0.
 bool stateIsSound(const Solve& solve);
 
 void append(std::vector<Figure>& all, std::vector<Figure> more);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <new>
 #include <optional>
+#include <utility>
 
 #include "base/clock.h"
 #include "base/error.h"
@@ -26,7 +27,8 @@ Figure passesUntilSaid(const Solve& solve, double most) {
   return {"passes until it says so", static_cast<double>(solve.measures().shots) / patches, most, 0, true};
 }
 
-void judge(const StabilityCase& trial, const Solve& solve, StabilityResult& result) {
+/// Returns whether what is wrong, if anything, is that it stopped short, in a state that is sound.
+bool judge(const StabilityCase& trial, const Solve& solve, StabilityResult& result) {
   std::vector<Figure> figures;
   const SolveState wanted = trial.no_solution ? SolveState::kFailed : SolveState::kConverged;
   if (trial.no_solution) {
@@ -46,32 +48,36 @@ void judge(const StabilityCase& trial, const Solve& solve, StabilityResult& resu
   }
   if (!stateIsSound(solve)) {
     result.note = "the state holds values that are negative or not finite; " + result.note;
-  } else if (result.note.empty()) {
-    result.verdict = Verdict::kPass;
+    return false;
   }
+  if (result.note.empty()) result.verdict = Verdict::kPass;
+  return solve.state() != wanted;
 }
 
-void attempt(const StabilityCase& trial, const SolveOptions& options, const std::function<gl::Context&()>& gl,
-             const CancelToken& cancel, StabilityResult& result) {
-  Solve solve(trial.make(), options, gl, cancel);
+bool attempt(const StabilityCase& trial, Scene scene, const SolveOptions& options,
+             const std::function<gl::Context&()>& gl, const CancelToken& cancel, StabilityResult& result) {
+  Solve solve(std::move(scene), options, gl, cancel);
   result.mode = solve.modeKey();
   result.form_factors = solve.formFactorsKey();
   if (const auto reason = unsuited(solve)) {
     result.verdict = Verdict::kRefused;
     result.note = *reason;
-    return;
+    return false;
   }
   while (solve.state() == SolveState::kRunning) {
     cancel.check();
     solve.step(Solve::kMostAtOnce);
   }
-  judge(trial, solve, result);
+  return judge(trial, solve, result);
 }
 
-/// The reason that the table gives for this combination, if any.
-std::optional<std::string> knownReason(const StabilityCase& trial, const StabilityResult& result) {
+/// The reason that the table gives for what this combination shows, if any.
+std::optional<std::string> knownReason(const StabilityCase& trial, const StabilityResult& result,
+                                       bool stopped) {
   for (const KnownException& known : trial.exceptions) {
-    if (known.key == result.mode || known.key == result.form_factors) return std::string(known.reason);
+    if (known.key != result.mode && known.key != result.form_factors) continue;
+    if (known.most > 0 ? !stopped && result.figure.strain() <= known.most : stopped)
+      return std::string(known.reason);
   }
   return std::nullopt;
 }
@@ -104,21 +110,22 @@ StabilityResult runStability(const StabilityCase& trial, const std::string& mode
   options.form_factors = form_factors;
   options.soonest = true;  // as `unshot solve`
   options.max_seconds = trial.large ? kLargestSeconds : kMostSeconds;
-  bool has_gl = true;
+  // While the program says that something is not for a scene, it does so in its own words; no folder for
+  // files and no OpenGL have no excuse.
+  bool own_words = false, stopped = false;
   const auto watched_gl = [&]() -> gl::Context& {
-    has_gl = false;
+    own_words = false;
     gl::Context& context = gl();
-    has_gl = true;
+    own_words = true;
     return context;
   };
   const double began = wallSeconds();
   try {
-    attempt(trial, options, watched_gl, cancel, result);
+    Scene scene = trial.make();
+    own_words = true;
+    stopped = attempt(trial, std::move(scene), options, watched_gl, cancel, result);
   } catch (const Error& error) {
-    // The tables' own words for a mode that is not for a scene; anything else, such as no OpenGL, has no
-    // excuse.
-    const bool own_words = error.kind() == ErrorKind::kEnvironment && has_gl;
-    result.verdict = own_words ? Verdict::kRefused : Verdict::kFail;
+    if (error.kind() == ErrorKind::kEnvironment && own_words) result.verdict = Verdict::kRefused;
     result.note = error.what();
   } catch (const std::bad_alloc&) {
     result.note = "out of memory";
@@ -127,7 +134,7 @@ StabilityResult runStability(const StabilityCase& trial, const std::string& mode
   }
   result.seconds = wallSeconds() - began;
   if (result.verdict != Verdict::kFail) return result;
-  if (const auto reason = knownReason(trial, result)) {
+  if (const auto reason = knownReason(trial, result, stopped)) {
     result.verdict = Verdict::kException;
     result.note += (result.note.empty() ? "" : ": ") + *reason;
   }
