@@ -40,7 +40,7 @@ void addFarAndNear(Cases& cases) {
        .title = "a light of a millionth of the area with E = 1e6, in a closed cube of reflectance 0.5",
        .expected = "mean irradiance 2; straight from the light, the floor's 1.437",
        .make = smallBrightLight,
-       .options = evenMesh(1500, 1e-5),
+       .options = evenMesh(1200, 1e-4),
        .measure = [](const Solve& s) {
          return std::vector<Figure>{
              {"mean irradiance", meanIrradiance(s, everySide()).x, 2, 0.01},
@@ -115,7 +115,7 @@ void addEnds(Cases& cases) {
        .make = litAndDarkIsland,
        .options =
            [] {
-             SolveOptions options = evenMesh(1000, 1e-5);
+             SolveOptions options = evenMesh(600, 1e-5);
              options.emit_front_only = true;
              return options;
            }(),

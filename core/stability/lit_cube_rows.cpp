@@ -52,9 +52,9 @@ constexpr const char* kQuickFactors =
     "answer";
 
 constexpr double kMostReflectance = 0.9999;
-constexpr Furnace kFurnaces[] = {{0.5, 0.005, 600, 1e-5},
-                                 {0.9, 0.005, 600, 1e-5},
-                                 {0.99, 0.01, 300, 1e-4},
+constexpr Furnace kFurnaces[] = {{0.5, 0.005, 294, 1e-5},
+                                 {0.9, 0.005, 294, 1e-5},
+                                 {0.99, 0.01, 150, 1e-4},
                                  {0.999, 0.01, 96, 1e-3, true},
                                  {kMostReflectance, 0.02, 54, 5e-3, true}};
 
@@ -146,7 +146,7 @@ void addEmissions(Cases& cases) {
                   (emission.x == emission.z ? "" : ", 1, " + numberText(emission.z)),
          .expected = "B / E as with E = 1",
          .make = [=] { return litCube(glm::dvec3(0.5), emission); },
-         .options = evenMesh(600, 1e-5),
+         .options = evenMesh(294, 1e-5),
          .measure =
              [=](const Solve& s) {
                return litCubeFigures(s, {half, half, half}, emission, 0.01);

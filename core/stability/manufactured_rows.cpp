@@ -122,7 +122,7 @@ void addPlaces(Cases& cases) {
                      .title = "closed cube, reflectance 0.8, one face lit, " + where,
                      .expected = "the same B as at its own size and place",
                      .make = [=] { return placed(litCube(glm::dvec3(0.8), glm::dvec3(1.0)), scale, shift); },
-                     .options = evenMesh(600, 1e-5),
+                     .options = evenMesh(294, 1e-5),
                      .measure =
                          [t = &litCubeTruth(0.8)](const Solve& s) {
                            return litCubeFigures(s, {t, t, t}, glm::dvec3(1.0), 0.01);
