@@ -1,4 +1,4 @@
-// The whole stability suite: every case by every mode and by every method, the largest too.
+// The whole stability suite: every case by every mode and by every method, the slow and the largest too.
 #include "support/stability.h"
 
 #include <gtest/gtest.h>
@@ -8,19 +8,27 @@ namespace {
 
 using namespace testing_support;
 
-TEST(StabilitySuite, HoldsByEveryMode) {
-  for (const StabilityCase& trial : stabilityCases()) {
-    for (const IterationModeRow& row : iterationModes())
-      expectStable(trial, std::string(row.info.key), "auto");
-  }
+class StabilitySuiteOfModes : public testing::TestWithParam<IterationModeRow> {};
+
+TEST_P(StabilitySuiteOfModes, HoldsInEveryCase) {
+  for (const StabilityCase& trial : stabilityCases())
+    expectStable(trial, std::string(GetParam().info.key), "auto");
 }
 
-TEST(StabilitySuite, HoldsByEveryMethod) {
-  for (const StabilityCase& trial : stabilityCases()) {
-    for (const FormFactorMethodRow& row : formFactorMethods())
-      expectStable(trial, "auto", std::string(row.info.key));
-  }
+INSTANTIATE_TEST_SUITE_P(Modes, StabilitySuiteOfModes,
+                         testing::ValuesIn(iterationModes().begin(), iterationModes().end()),
+                         [](const auto& row) { return testName(row.param.info.key); });
+
+class StabilitySuiteOfMethods : public testing::TestWithParam<FormFactorMethodRow> {};
+
+TEST_P(StabilitySuiteOfMethods, HoldsInEveryCase) {
+  for (const StabilityCase& trial : stabilityCases())
+    expectStable(trial, "auto", std::string(GetParam().info.key));
 }
+
+INSTANTIATE_TEST_SUITE_P(Methods, StabilitySuiteOfMethods,
+                         testing::ValuesIn(formFactorMethods().begin(), formFactorMethods().end()),
+                         [](const auto& row) { return testName(row.param.info.key); });
 
 }  // namespace
 }  // namespace unshot
