@@ -51,6 +51,8 @@ constexpr const char* kQuickFactors =
     "factors of patches that emit little are within 0.3 %, and a sum of them that is 4e-6 off is 4 % of the "
     "answer";
 
+// Over single elements: counted pixels leave 1 %, most of it along the edges of the cube.
+constexpr double kScatter = 0.02;
 constexpr double kMostReflectance = 0.9999;
 constexpr Furnace kFurnaces[] = {{0.5, 0.005, 294, 1e-5},
                                  {0.9, 0.005, 294, 1e-5},
@@ -65,16 +67,15 @@ void addFurnaces(Cases& cases) {
     const double rho = f.reflectance, tolerance = f.tolerance;
     const std::vector<KnownException> exceptions = {{"rays", kQuickFactors, 3},
                                                     {"hemicube-visibility", kQuickFactors, 3}};
-    cases.push_back({.key = "furnace-" + numberText(rho),
-                     .title = "closed cube, reflectance " + numberText(rho) + ", E = 1 on every wall",
-                     .expected = "B = 1 / (1 - rho) = " + numberText(1 / (1 - rho)),
-                     .make = [=] { return furnaceScene(rho, 1.0); },
-                     .options = evenMesh(f.elements, f.error),
-                     .measure =
-                         [=](const Solve& s) {
-                           return evenFigures(s, glm::dvec3(1 / (1 - rho)), tolerance, 2 * tolerance);
-                         },
-                     .slow = f.slow});
+    cases.push_back(
+        {.key = "furnace-" + numberText(rho),
+         .title = "closed cube, reflectance " + numberText(rho) + ", E = 1 on every wall",
+         .expected = "B = 1 / (1 - rho) = " + numberText(1 / (1 - rho)),
+         .make = [=] { return furnaceScene(rho, 1.0); },
+         .options = evenMesh(f.elements, f.error),
+         .measure =
+             [=](const Solve& s) { return evenFigures(s, glm::dvec3(1 / (1 - rho)), tolerance, kScatter); },
+         .slow = f.slow});
     cases.push_back({.key = "lit-face-" + numberText(rho),
                      .title = "closed cube, reflectance " + numberText(rho) + ", one face lit",
                      .expected = "B of the lit, the opposite and the other faces",
