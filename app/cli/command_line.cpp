@@ -23,14 +23,16 @@ struct CommandRow {
   void (*set_up)(Command& command);
 };
 
-constexpr std::array<CommandRow, 6> kCommands = {
+constexpr std::array<CommandRow, 7> kCommands = {
     {{"view", "Open the viewer on a scene (also without saying view)", setUpView},
      {"solve", "Solve a scene without a window and write pictures, solutions, reports", setUpSolve},
      {"report", "Measure how the error falls with time and rows, mode by mode: tables, plots, a page",
       setUpReport},
      {"check", "Say what is in a scene, what is wrong with it and what it does not need", setUpCheck},
      {"compare", "Compare two pictures (PNG, HDR), solutions (PLY) or tables of probes (CSV)", setUpCompare},
-     {"list", "List every mode, method, display, exporter and provider, and what works here", setUpList}}};
+     {"list", "List every mode, method, display, exporter and provider, and what works here", setUpList},
+     {"selftest", "Solve scenes whose answer is known exactly, and say how far off each is here",
+      setUpSelftest}}};
 
 constexpr const char* kFooter =
     "unshot COMMAND --help says more. Without a command, the viewer opens.\n"

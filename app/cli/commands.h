@@ -12,5 +12,6 @@ void setUpReport(Command& command);
 void setUpCheck(Command& command);
 void setUpCompare(Command& command);
 void setUpList(Command& command);
+void setUpSelftest(Command& command);
 
 }  // namespace unshot

@@ -29,19 +29,38 @@ double radicalInverse(std::uint32_t k) {
   return std::ldexp(static_cast<double>(reversed), -32);
 }
 
+// The pieces of each of Mesh::patch_shapes, in the order of the cells: those in its node, and slivers that it
+// took from cells beside.
+std::vector<std::vector<std::uint32_t>> piecesOfPatches(const Mesh& mesh, const CancelToken& cancel) {
+  std::vector<std::vector<std::uint32_t>> out(mesh.patch_shapes.size());
+  for (const Surface& s : mesh.surfaces) {
+    cancel.check();
+    if (s.patches.count == 0) continue;
+    for (std::uint32_t c = s.first_cell; c < s.first_cell + s.nu * s.nv; ++c) {
+      const Range pieces = mesh.cells[c].pieces;
+      for (std::uint32_t p = pieces.first; p < pieces.end(); ++p)
+        out[s.patches.first + mesh.shapes[s.elements.first + mesh.pieces[p].element].patch].push_back(p);
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 PatchPolygons::PatchPolygons(const Mesh& mesh, const CancelToken& cancel)
     : patches_(mesh.patch_count), margin_(kMargin * glm::length(mesh.bounds_max - mesh.bounds_min)) {
   // The patches of a refined mesh are those of its base, in fewer pieces.
+  const Mesh& in = mesh.base ? *mesh.base : mesh;
+  const std::vector<std::vector<std::uint32_t>> pieces = piecesOfPatches(in, cancel);
   for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
     cancel.check();
-    collect(mesh.base ? *mesh.base : mesh, q);
+    const Surface& surface = in.surfaces[in.sides[in.patch_side[q]].surface];
+    collect(in, q, pieces[surface.patches.first + q - in.sides[in.patch_side[q]].first_patch]);
   }
 }
 
 // A whole rectangle where the patch is one, else the pieces of its elements.
-void PatchPolygons::collect(const Mesh& mesh, std::uint32_t q) {
+void PatchPolygons::collect(const Mesh& mesh, std::uint32_t q, std::span<const std::uint32_t> pieces) {
   Patch& patch = patches_[q];
   const Side& side = mesh.sides[mesh.patch_side[q]];
   const Surface& surface = mesh.surfaces[side.surface];
@@ -50,20 +69,13 @@ void PatchPolygons::collect(const Mesh& mesh, std::uint32_t q) {
   patch.normal = side.normal;
   const Region region = regionOfPatch(mesh, side.surface, local);
   patch.centre = surface.point(region.sample);
-  const Node& node = mesh.nodes[mesh.patch_shapes[surface.patches.first + local].node];
   glm::dvec2 low = surface.extent, high(0.0);
   std::vector<std::vector<glm::dvec3>> outlines;
-  for (std::uint32_t j = node.v0; j < node.v1; ++j) {
-    for (std::uint32_t i = node.u0; i < node.u1; ++i) {
-      const Range pieces = mesh.cells[surface.first_cell + j * surface.nu + i].pieces;
-      for (std::uint32_t p = pieces.first; p < pieces.end(); ++p) {
-        if (mesh.shapes[surface.elements.first + mesh.pieces[p].element].patch != local) continue;
-        outlines.push_back(outlineOf(mesh, side, mesh.pieces[p]));
-        for (const PieceCorner& corner : mesh.cornersOf(mesh.pieces[p])) {
-          low = glm::min(low, corner.uv);
-          high = glm::max(high, corner.uv);
-        }
-      }
+  for (const std::uint32_t p : pieces) {
+    outlines.push_back(outlineOf(mesh, side, mesh.pieces[p]));
+    for (const PieceCorner& corner : mesh.cornersOf(mesh.pieces[p])) {
+      low = glm::min(low, corner.uv);
+      high = glm::max(high, corner.uv);
     }
   }
   const double rectangle = (high.x - low.x) * (high.y - low.y);

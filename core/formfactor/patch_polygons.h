@@ -50,7 +50,7 @@ class PatchPolygons {
     std::uint32_t surface = 0;
     bool rectangle = false;
   };
-  void collect(const Mesh& mesh, std::uint32_t q);
+  void collect(const Mesh& mesh, std::uint32_t q, std::span<const std::uint32_t> pieces);
   void enclose(Patch& patch) const;
   bool isSeen(const Patch& patch, std::uint32_t q, const glm::dvec3& point, const glm::dvec3& normal) const;
 

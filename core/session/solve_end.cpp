@@ -33,6 +33,7 @@ void Solve::Impl::fail(ErrorKind kind, std::string why, std::string advice) {
 
 // Converged, but for the local pass.
 void Solve::Impl::finish(std::string why) {
+  if (!isLight(*state)) return failWithoutSolution();
   if (!local_pass) return stop(SolveState::kConverged, std::move(why));
   finished_by = std::move(why);
   local_pass->begin(*state, makeField(*mesh, transport->receivers(), state->irradiance()).elements);
@@ -87,19 +88,13 @@ void Solve::Impl::checkLimits() {
 }
 
 void Solve::Impl::checkStagnation() {
-  if (options.bounces || !stagnation.found(measures, mesh->patch_count)) return;
+  const auto hopeless = [this] { return (closureIsDue() && !closure_hurries) || nothingDiesOut(*state); };
+  if (options.bounces || !stagnation.found(measures, mesh->patch_count, hopeless)) return;
   if (closureIsDue() && !closure_hurries) {
     // Rows that sum to more than 1 may be all that keeps it up.
     closure_hurries = true;
-    return;
-  }
-  if (nothingDiesOut(*state)) {
-    fail(ErrorKind::kInput,
-         "no finite solution: the walls that the light reaches reflect all of it (reflectance 1) and let "
-         "none out, so "
-         "it never dies out",
-         "a reflectance (Kd) below 1 for some wall, or --bounces N (or --max-shots N) for the light of a "
-         "number of bounces");
+  } else if (nothingDiesOut(*state)) {
+    failWithoutSolution();
   } else {
     fail(ErrorKind::kInternal, "stagnation: the unshot power does not fall",
          "another --mode or --form-factors");
@@ -115,6 +110,15 @@ void Solve::Impl::checkEnergy() {
        "energy is not conserved: " + figureText(100 * energy.residual() / energy.emitted) +
            " % of what was emitted is unaccounted for",
        "another --mode or --form-factors, and please report it with the scene");
+}
+
+void Solve::Impl::failWithoutSolution() {
+  fail(
+      ErrorKind::kInput,
+      "no finite solution: the walls that the light reaches reflect all of it (reflectance 1) and let none "
+      "out, so it never dies out",
+      "a reflectance (Kd) below 1 for some wall, or --bounces N (or --max-shots N) for the light of a number "
+      "of bounces");
 }
 
 // Once, when the first column finds no room.

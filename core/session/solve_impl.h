@@ -75,6 +75,7 @@ struct Solve::Impl {
   void makeTransport(const std::function<gl::Context&()>& gl, const CancelToken& cancel);
   void chooseMode(const std::string& key);
   void stop(SolveState how, std::string why);
+  void failWithoutSolution();
   void fail(ErrorKind kind, std::string why, std::string advice);
   void wakeClocks();
   void learnSolution();

@@ -1,14 +1,32 @@
 #include "solver/minimal_residual.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "solver/inner_products.h"
+#include "solver/modes.h"
 
 namespace unshot {
 namespace {
 
 constexpr std::size_t kDirectionBytes = std::size_t{256} << 20;
 constexpr std::size_t kLeastDirections = 4;
+// A correction by more than this many times the emitted power leads to no solution but to what rounding makes
+// of a system that has none.
+constexpr double kMostBounces = 1e6;
+
+bool isBeyondLight(const RadiosityState& state, const std::vector<glm::dvec3>& shot,
+                   const glm::dvec3& factor) {
+  for (int c = 0; c < 3; ++c) {
+    double power = 0, emitted = 0;
+    for (std::size_t q = 0; q < shot.size(); ++q) {
+      power += state.area()[q] * std::abs(factor[c] * shot[q][c]);
+      emitted += state.area()[q] * state.emission()[q][c];
+    }
+    if (power > kMostBounces * emitted) return true;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -24,7 +42,13 @@ void MinimalResidual::apply(RadiosityState& state, const Transport& transport, L
     for (std::size_t q = 0; q < fresh.image.size(); ++q) fresh.image[q] += factor * old.image[q];
   }
   fresh.square = weighted(weight_, fresh.image, fresh.image);
-  state.add(quotient(weighted(weight_, state.unshot(), fresh.image), fresh.square), fresh.flow);
+  const glm::dvec3 factor = quotient(weighted(weight_, state.unshot(), fresh.image), fresh.square);
+  if (isBeyondLight(state, fresh.flow.shot, factor)) {
+    throw IterationFailure(ErrorKind::kInput,
+                           "no finite solution: the walls reflect all light and let none out", {},
+                           "a reflectance (Kd) below 1 for some wall");
+  }
+  state.add(factor, fresh.flow);
   const std::size_t most =
       std::clamp(kDirectionBytes / fresh.bytes(), std::min(kLeastDirections, most_), most_);
   if (directions_.size() >= most) directions_.pop_front();

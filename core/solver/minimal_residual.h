@@ -17,7 +17,7 @@ class MinimalResidual {
   /// The direction `flow` is made orthogonal, in (I - M) d, to those before, and applied times the factor
   /// that leaves the least. Lengths are measured with the weight A / rho, in which (I - M) of a reciprocal K
   /// is symmetric and positive, so that d = U never stands still. The oldest directions go when there is no
-  /// room.
+  /// room. Throws IterationFailure, with the state as before, where the system has no solution.
   void apply(RadiosityState& state, const Transport& transport, LightFlow flow);
   std::size_t bytes() const;  ///< memory of the directions
 

@@ -22,10 +22,11 @@ TEST(Help, TellsAboutEveryCommand) {
   const ProgramResult result = runProgram(folder, {"--help"});
   EXPECT_EQ(result.code, 0);
   EXPECT_THAT(result.err, IsEmpty());
-  for (const char* command : {"view", "solve", "report", "check", "compare", "list", "Exit codes"}) {
+  for (const char* command :
+       {"view", "solve", "report", "check", "compare", "list", "selftest", "Exit codes"}) {
     EXPECT_THAT(result.out, HasSubstr(command));
   }
-  for (const char* command : {"view", "solve", "report", "check", "compare", "list"}) {
+  for (const char* command : {"view", "solve", "report", "check", "compare", "list", "selftest"}) {
     const ProgramResult help = runProgram(folder, {command, "--help"});
     EXPECT_EQ(help.code, 0);
     EXPECT_THAT(help.out, HasSubstr(std::string("Usage: unshot ") + command));
@@ -160,6 +161,9 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"report", "--out", "r"}, "SCENE.obj is missing"},
         UsageCase{{"report", "room.obj", "--out", "r", "--repeats", "0"}, "--repeats: 0 is not from 1"},
         UsageCase{{"report", "room.obj", "--out", "r", "--mode", "jacobi"}, "no option '--mode'"},
+        UsageCase{{"selftest", "--case", "magic"}, "there is no 'magic'; it is one of all, furnace-0.5"},
+        UsageCase{{"selftest", "--mode", "magic"}, "there is no 'magic'"},
+        UsageCase{{"selftest", "room.obj"}, "'room.obj' is one argument too many"},
         UsageCase{{"compare", "a", "b", "--tolerance", "-1"}, "--tolerance: -1 is not at least 0"}));
 
 INSTANTIATE_TEST_SUITE_P(

@@ -1,0 +1,48 @@
+// The suite of `unshot selftest`: every case by the default mode and method; every mode and every method on
+// all but the slow ones. (All of all: tests/long.)
+#include "support/stability.h"
+
+#include <gtest/gtest.h>
+
+namespace unshot {
+namespace {
+
+using namespace testing_support;
+
+// Surfaces that overlap in one plane are not right by any method: the table says how far off they are.
+constexpr std::string_view kWrongByDefault = "coplanar";
+
+TEST(Stability, EveryCaseHoldsByDefault) {
+  for (const StabilityCase& trial : stabilityCases()) {
+    if (trial.large) continue;
+    const bool known = trial.key == kWrongByDefault;
+    expectStable(trial, "auto", "auto", known ? Expected::kNoSurprise : Expected::kPass);
+  }
+}
+
+class StabilityOfModes : public testing::TestWithParam<IterationModeRow> {};
+
+TEST_P(StabilityOfModes, HoldsInEveryCaseButTheSlow) {
+  for (const StabilityCase& trial : stabilityCases()) {
+    if (!trial.large && !trial.slow) expectStable(trial, std::string(GetParam().info.key), "auto");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, StabilityOfModes,
+                         testing::ValuesIn(iterationModes().begin(), iterationModes().end()),
+                         [](const auto& row) { return testName(row.param.info.key); });
+
+class StabilityOfMethods : public testing::TestWithParam<FormFactorMethodRow> {};
+
+TEST_P(StabilityOfMethods, HoldsInEveryCaseButTheSlow) {
+  for (const StabilityCase& trial : stabilityCases()) {
+    if (!trial.large && !trial.slow) expectStable(trial, "auto", std::string(GetParam().info.key));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, StabilityOfMethods,
+                         testing::ValuesIn(formFactorMethods().begin(), formFactorMethods().end()),
+                         [](const auto& row) { return testName(row.param.info.key); });
+
+}  // namespace
+}  // namespace unshot
