@@ -13,12 +13,6 @@ namespace {
 
 constexpr double kBytesPerMb = 1e6;
 
-Check emitText() {
-  return [](const std::string& text) -> std::string {
-    return text == "both" || text == "front" ? "" : "'" + text + "' is neither both nor front";
-  };
-}
-
 Check skyText() {
   return [](const std::string& text) -> std::string {
     return parseSky(text) ? ""
@@ -27,6 +21,12 @@ Check skyText() {
 }
 
 }  // namespace
+
+Check emitText() {
+  return [](const std::string& text) -> std::string {
+    return text == "both" || text == "front" ? "" : "'" + text + "' is neither both nor front";
+  };
+}
 
 SolverArguments::SolverArguments(Command& command, SolverUse use) {
   addSolver(command, use);

@@ -17,6 +17,9 @@ enum class SolverUse {
   kReport  ///< several modes: neither --mode nor the limits of one solve
 };
 
+/// The values of --emit.
+Check emitText();
+
 class SolverArguments {
  public:
   SolverArguments(Command& command, SolverUse use);

@@ -84,8 +84,19 @@ std::uint32_t cellsAlong(double extent, double size, bool paired) {
 // even.
 constexpr std::uint32_t kMostBlackCells = 16;
 
+// A thin frame or a long sliver leaves most cells of its chart empty. Grids beyond the first number hold at
+// most so many cells for each that is not.
+constexpr double kFewCells = 20'000, kMostEmpty = 100;
+
 glm::uvec2 cellsOf(const Mesh& mesh, const Surface& s, double size, bool paired) {
-  const glm::uvec2 cells(cellsAlong(s.extent.x, size, paired), cellsAlong(s.extent.y, size, paired));
+  glm::uvec2 cells(cellsAlong(s.extent.x, size, paired), cellsAlong(s.extent.y, size, paired));
+  const double all = static_cast<double>(cells.x) * cells.y;
+  const double most = std::max(kFewCells, kMostEmpty * all * s.area / (s.extent.x * s.extent.y));
+  if (all > most) {
+    const double coarser = size * std::sqrt(all / most);
+    cells = {cellsAlong(s.extent.x, coarser, paired), cellsAlong(s.extent.y, coarser, paired)};
+    cells = glm::min(cells, glm::uvec2(static_cast<std::uint32_t>(kFewCells)));
+  }
   const bool black = mesh.materials[s.material].reflectance == glm::dvec3(0.0);
   return paired && black ? glm::min(cells, glm::uvec2(kMostBlackCells)) : cells;
 }
@@ -168,6 +179,9 @@ void sayCount(Mesh& mesh, double wanted) {
        {}});
 }
 
+// The most elements that are asked for, over those that are wanted.
+constexpr double kMostAsked = 10;
+
 void gridForCount(Mesh& mesh, double wanted, bool paired, const Contacts& contacts, double tolerance,
                   const CancelToken& cancel) {
   double least = 0;
@@ -193,7 +207,8 @@ void gridForCount(Mesh& mesh, double wanted, bool paired, const Contacts& contac
       best = sizes;
     }
     if (error < 0.03) break;
-    asked *= wanted / countElements(mesh);
+    // Cells below the tolerance are joined however many are asked for.
+    asked = std::min(asked * wanted / countElements(mesh), kMostAsked * wanted);
   }
   if (std::abs(countElements(mesh) / wanted - 1) > best_error)
     gridAll(mesh, best, paired, contacts, tolerance, cancel);

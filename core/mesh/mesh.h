@@ -36,6 +36,7 @@ struct Surface {
   glm::dvec2 extent{0.0};  ///< the chart covers [0, extent.x] x [0, extent.y]
   double area = 0;         ///< [m^2], of one side
   Range triangles;  ///< in Mesh::triangles: the polygons of the scene, counter-clockwise about `normal`
+  std::uint32_t polygon = 0;     ///< in Scene::polygons: one of those that it consists of, for messages
   std::uint32_t nu = 1, nv = 1;  ///< cells along u and v
   std::uint32_t first_cell = 0;  ///< in Mesh::cells; cell (i, j) is first_cell + j nu + i
   bool cut = false;              ///< contacts cut cells: neighbouring cells may not share all corners

@@ -55,7 +55,9 @@ class SurfaceMaker {
       if (surface_of_[p] == kNone && planes_[p].area > 0) growSurface(p);
     }
     SurfaceTopology out{smoothPairs(), {}};
-    for (const EdgeUse& e : edges_) out.edges.push_back({e.low, e.high, surface_of_[e.polygon]});
+    for (const EdgeUse& e : edges_) {
+      if (surface_of_[e.polygon] != kNone) out.edges.push_back({e.low, e.high, surface_of_[e.polygon]});
+    }
     return out;
   }
 
@@ -119,10 +121,19 @@ class SurfaceMaker {
     }
     Surface surface;
     surface.material = scene_.polygons[seed].material;
+    surface.polygon = seed;
     surface.normal = planes_[seed].normal;
     makeChart(members, surface);
     addTriangles(members, index, surface);
-    mesh_.surfaces.push_back(surface);
+    if (surface.area > 0) {
+      mesh_.surfaces.push_back(surface);
+      return;
+    }
+    // So narrow that welding left nothing of them.
+    for (const std::uint32_t p : members) {
+      surface_of_[p] = kNone;
+      planes_[p].area = 0;
+    }
   }
 
   // Axes along the outline edge that gives the smallest bounding rectangle: cells then follow walls and
@@ -240,7 +251,8 @@ class SurfaceMaker {
       const EdgeUse& one = edges_[edge];
       const EdgeUse& two = edges_[edge + 1];
       const std::uint32_t a = surface_of_[one.polygon], b = surface_of_[two.polygon];
-      if (a == b || mesh_.surfaces[a].material != mesh_.surfaces[b].material) continue;
+      if (a == b || a == kNone || b == kNone || mesh_.surfaces[a].material != mesh_.surfaces[b].material)
+        continue;
       const bool flipped = one.forward == two.forward;
       if (!smooth(one, two, flipped) || !known.emplace(std::min(a, b), std::max(a, b)).second) continue;
       out.push_back({a, b, flipped});

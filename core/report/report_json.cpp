@@ -143,11 +143,15 @@ std::string reportJson(const RunRecord& record) {
                  {"history", jsonOf(record.history)}});
 }
 
-std::string checkJson(const Scene& scene, const Diagnostics& diagnostics,
-                      const std::vector<PlanDecision>& plan) {
+std::string checkJson(const Scene& scene, const CheckRecord& record) {
+  const LightWalks& walks = record.walks;
   return textOf({{"scene", jsonOf(figuresOf(scene), scene.path, scene.name)},
-                 {"diagnostics", jsonOf(diagnostics)},
-                 {"plan", jsonOf(plan)}});
+                 {"spectral_radius", jsonOf(walks.spectral_radius)},
+                 {"bounces_to_one_percent", valueOf(walks.bouncesToOnePercent())},
+                 {"escaped", valueOf(walks.escaped)},
+                 {"diagnostics", jsonOf(record.diagnostics)},
+                 {"found_nothing", record.found_nothing},
+                 {"plan", jsonOf(record.plan)}});
 }
 
 }  // namespace unshot

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "report/run_record.h"
+#include "session/light_walks.h"
 
 namespace unshot {
 
@@ -12,8 +13,15 @@ namespace unshot {
 /// are null. Text that is not UTF-8 is made so.
 std::string reportJson(const RunRecord& record);
 
-/// What `unshot check --json` prints: the scene's figures, the diagnostics and the plan.
-std::string checkJson(const Scene& scene, const Diagnostics& diagnostics,
-                      const std::vector<PlanDecision>& plan);
+/// What `unshot check` finds.
+struct CheckRecord {
+  Diagnostics diagnostics;
+  std::vector<PlanDecision> plan;
+  LightWalks walks;
+  std::vector<std::string> found_nothing;  ///< keys of the scene checks (session/scene_checks.h) that did
+};
+
+/// What `unshot check --json` prints: the scene's figures and the record.
+std::string checkJson(const Scene& scene, const CheckRecord& record);
 
 }  // namespace unshot

@@ -9,6 +9,7 @@
 #include "mesh/build.h"
 #include "scene/sky.h"
 #include "session/light_refinement.h"
+#include "session/scene_checks.h"
 
 namespace unshot {
 
@@ -162,6 +163,9 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
                                {},
                                "--sky r,g,b for another, --sky 0,0,0 for none"});
   }
+  CheckedScene checked(scene, *out.mesh, options.emit_front_only, cancel);
+  const Diagnostics found = checkScene(checked, CheckTime::kEverySolve);
+  out.diagnostics.insert(out.diagnostics.end(), found.begin(), found.end());
   const FormFactorMethodRow& row = findChoice(formFactorMethods(), out.form_factors, "form-factor method");
   const std::string unsuited = row.unsuited(*out.mesh);
   if (!unsuited.empty()) {

@@ -19,7 +19,7 @@ struct Preparation {
   std::string form_factors;  ///< key of the method: what `auto` became
   glm::dvec3 sky{0.0};       ///< its radiosity [W/m^2]: what was asked for, or what skyOver makes of it
   std::vector<PlanDecision> plan;
-  Diagnostics diagnostics;                    ///< of scene, mesh and choice of method
+  Diagnostics diagnostics;                    ///< of scene, mesh, checks and choice of method
   double mesh_seconds = 0, plan_seconds = 0;  ///< wall time
 };
 
