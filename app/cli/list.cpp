@@ -10,6 +10,7 @@
 #include "formfactor/methods.h"
 #include "gl/context.h"
 #include "render/display_modes.h"
+#include "session/scene_checks.h"
 #include "solver/modes.h"
 #include "viewer/actions.h"
 #include "viewer/glfw_context.h"
@@ -60,6 +61,7 @@ int runList() {
   printTable("Form-factor methods (--form-factors)", formFactorMethods(), "", available);
   printTable("Display modes (--display)", displayModes(), "", available);
   printTable("Exporters", exporters(), "--", available);
+  printTable("Scene checks (unshot check)", sceneChecks(), "", available);
   std::vector<gl::Provider> providers(gl::providers().begin(), gl::providers().end());
   providers.push_back(glfwProvider());
   printTable("OpenGL providers (--gl)", std::span<const gl::Provider>(providers), "",

@@ -12,6 +12,7 @@
 
 #include "base/point_tree.h"
 #include "mesh/air.h"
+#include "mesh/vertex_weights.h"
 #include "mesh/weld.h"
 #include "scene/triangulate.h"
 
@@ -251,10 +252,7 @@ class DisplayMaker {
     }
   }
 
-  struct Entry {
-    std::uint32_t element;
-    float weight;
-  };
+  using Entry = VertexWeight;
   using Rows = std::vector<std::vector<Entry>>;
 
   // Elements around a vertex count by the inverse of their centre's distance. A vertex that is only put in
@@ -343,6 +341,9 @@ class DisplayMaker {
           for (std::uint32_t back = 0; back < 2; ++back) {
             const std::uint32_t vertex = vertex_[2 * k + back];
             if (vertex == kNone || std::exchange(done[vertex], char{1})) continue;
+            // At the weld distance a vertex that is put in may pass for a corner.
+            const auto unknown = [&](std::uint32_t q) { return rows[vertex_[2 * q + back]].empty(); };
+            if (std::any_of(corners.begin(), corners.end(), unknown)) continue;
             std::vector<Entry> row;
             for (std::uint32_t q = 0; q < 4; ++q) {
               const double share = (q & 1 ? t.x : 1 - t.x) * (q & 2 ? t.y : 1 - t.y);
@@ -350,7 +351,8 @@ class DisplayMaker {
                 row.push_back({e.element, static_cast<float>(share) * e.weight});
               }
             }
-            rows[vertex] = std::move(row);
+            if (row.size() > kManyVertexWeights) mergeEqual(row);
+            if (row.size() <= kManyVertexWeights) rows[vertex] = std::move(row);
           }
         }
       }
@@ -370,6 +372,7 @@ class DisplayMaker {
         for (const Entry& e : rows[vertex_[2 * ring_[k].to + back]]) {
           rows[vertex].push_back({e.element, ring_[k].along * e.weight});
         }
+        if (rows[vertex].size() > kManyVertexWeights) mergeEqual(rows[vertex]);
       }
     }
   }

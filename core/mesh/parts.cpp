@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 namespace unshot {
 namespace {
@@ -51,6 +54,35 @@ class PartFinder {
     return false;
   }
 
+  // Pairs of pieces (their numbers in the cell, the smaller first) whose bounds meet: a surface of many small
+  // triangles has hundreds in a cell.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> besideEachOther(const Range& pieces) const {
+    if (pieces.count < 2) return {};
+    struct Bounds {
+      glm::dvec2 low{INFINITY}, high{-INFINITY};
+      std::uint32_t piece = 0;
+    };
+    std::vector<Bounds> bounds(pieces.count);
+    for (std::uint32_t k = 0; k < pieces.count; ++k) {
+      bounds[k].piece = k;
+      for (const PieceCorner& c : mesh_.cornersOf(mesh_.pieces[pieces.first + k])) {
+        bounds[k].low = glm::min(bounds[k].low, c.uv - near_);
+        bounds[k].high = glm::max(bounds[k].high, c.uv + near_);
+      }
+    }
+    std::sort(bounds.begin(), bounds.end(),
+              [](const Bounds& a, const Bounds& b) { return a.low.x < b.low.x; });
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+      cancel_.check();
+      for (std::size_t j = i + 1; j < bounds.size() && bounds[j].low.x <= bounds[i].high.x; ++j) {
+        if (bounds[j].low.y > bounds[i].high.y || bounds[j].high.y < bounds[i].low.y) continue;
+        pairs.push_back(std::minmax(bounds[i].piece, bounds[j].piece));
+      }
+    }
+    return pairs;
+  }
+
   void partsOfCell(std::uint32_t c) {
     cancel_.check();
     const Range pieces = mesh_.cells[surface_.first_cell + c].pieces;
@@ -60,11 +92,9 @@ class PartFinder {
       while (group[k] != k) k = group[k] = group[group[k]];
       return k;
     };
-    for (std::uint32_t i = 0; i < pieces.count; ++i) {
-      for (std::uint32_t j = i + 1; j < pieces.count; ++j) {
-        if (find(i) != find(j) && shareEdge(mesh_.pieces[pieces.first + i], mesh_.pieces[pieces.first + j])) {
-          group[find(j)] = find(i);
-        }
+    for (const auto& [i, j] : besideEachOther(pieces)) {
+      if (find(i) != find(j) && shareEdge(mesh_.pieces[pieces.first + i], mesh_.pieces[pieces.first + j])) {
+        group[find(j)] = find(i);
       }
     }
     std::vector<std::uint32_t> part(pieces.count, kNone);

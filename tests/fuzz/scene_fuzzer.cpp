@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <string_view>
 
@@ -113,6 +114,12 @@ void checkMesh(const Preparation& prepared) {
     for (int axis = 0; axis < 3; ++axis)
       require(std::isfinite(v.position[axis]) && std::isfinite(v.normal[axis]),
               "a vertex that is not finite");
+  }
+  const SparseRows& rows = mesh.vertex_from_elements;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const double weights =
+        std::accumulate(rows.weight.begin() + rows.start[k], rows.weight.begin() + rows.start[k + 1], 0.0);
+    require(std::abs(weights - 1) < 1e-3, "a vertex whose weights are not one in all");
   }
   for (const std::uint32_t element : mesh.triangle_element)
     require(element < mesh.element_count, "a triangle of no element");

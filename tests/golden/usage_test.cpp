@@ -54,8 +54,8 @@ TEST(Version, IsPrinted) {
 TEST(List, NamesEveryTable) {
   const ProgramResult result = runProgram(TempFolder(), {"list"});
   EXPECT_EQ(result.code, 0);
-  for (const char* key :
-       {"southwell", "jacobi", "hemicube", "radiosity", "--png", "--report", "osmesa", "egl"}) {
+  for (const char* key : {"southwell", "jacobi", "hemicube", "radiosity", "--png", "--report", "osmesa",
+                          "egl", "light-in-solid"}) {
     EXPECT_THAT(result.out, HasSubstr(std::string("  ") + key));
   }
 }
