@@ -17,6 +17,29 @@ constexpr float kSame = 0.999f;
 // Share of its view from which what a refined vertex sees by itself is scaled by itself.
 constexpr double kGoodPart = 0.1;
 
+// What emitters reflect, of what the scene absorbs, from which their columns are scaled too.
+constexpr double kMuchByEmitters = 0.2;
+
+// The sky's, those of emitters that the light's shadows hang on, and those of all emitters where they reflect
+// little: their light comes straight, with shadows that no scaling may blur.
+std::vector<std::uint8_t> exactColumns(const Mesh& mesh, std::size_t sources) {
+  double by_emitters = 0, absorbed = 0;
+  for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
+    const glm::dvec3& rho = mesh.sides[mesh.patch_side[q]].reflectance;
+    absorbed += mesh.patch_area[q] * (3 - rho.x - rho.y - rho.z);
+    if (mesh.emits(q)) by_emitters += mesh.patch_area[q] * (rho.x + rho.y + rho.z);
+  }
+  const bool all = by_emitters < kMuchByEmitters * absorbed;
+  const EmitterShare share(mesh);
+  std::vector<std::uint8_t> out;
+  for (std::uint32_t q = 0; q < sources; ++q) {
+    const bool sky = q >= mesh.patch_count;
+    out.push_back(
+        sky || (mesh.emits(q) && (all || share.isLarge(mesh.sides[mesh.patch_side[q]], mesh.patch_area[q]))));
+  }
+  return out;
+}
+
 struct RowSums {
   std::vector<double> exact, scaled;
 };
@@ -86,12 +109,7 @@ double reflectionGain(const Mesh& mesh) {
 RowClosure closeRows(const Mesh& mesh, const Transport& transport, std::span<const float> escape) {
   const Receivers& receivers = transport.receivers();
   RowClosure out;
-  const EmitterShare share(mesh);
-  for (std::uint32_t q = 0; q < transport.patchCount(); ++q) {
-    const bool sky = q >= mesh.patch_count;
-    out.exact.push_back(sky ||
-                        (mesh.emits(q) && share.isLarge(mesh.sides[mesh.patch_side[q]], mesh.patch_area[q])));
-  }
+  out.exact = exactColumns(mesh, transport.patchCount());
   out.scale.assign(transport.receiverCount(), 1.0f);
   const RowSums sums = sumRows(transport, out.exact);
   const std::vector<std::uint32_t> twins =

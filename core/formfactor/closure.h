@@ -5,7 +5,7 @@
 // rays. A row that sums to 1 - d turns the 1 / (1 - rho) of a closed room into 1 / (1 - rho (1 - d)): at a
 // reflectance of 0.99 and d = 1 % half of the light is gone, and where d < 0 there may be no solution at all.
 // So the rows are scaled, once all columns are known. Columns of sources that emit a good share of the light
-// are exact and stay; the others take up the difference.
+// are exact and stay, those of all emitters where they reflect little; the others take up the difference.
 //
 // Known error: the difference is spread over all that a receiver sees in proportion, wherever it arose.
 #pragma once

@@ -44,9 +44,10 @@ void MinimalResidual::apply(RadiosityState& state, const Transport& transport, L
   fresh.square = weighted(weight_, fresh.image, fresh.image);
   const glm::dvec3 factor = quotient(weighted(weight_, state.unshot(), fresh.image), fresh.square);
   if (isBeyondLight(state, fresh.flow.shot, factor)) {
-    throw IterationFailure(ErrorKind::kInput,
-                           "no finite solution: the walls reflect all light and let none out", {},
-                           "a reflectance (Kd) below 1 for some wall");
+    throw IterationFailure(
+        ErrorKind::kInput, "no finite solution: the walls reflect all light and let none out", {},
+        "a reflectance (Kd) below 1 for some wall, or --bounces N (or --max-shots N) for the light "
+        "of a number of bounces");
   }
   state.add(factor, fresh.flow);
   const std::size_t most =

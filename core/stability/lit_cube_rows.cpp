@@ -47,10 +47,6 @@ struct Furnace {
   bool slow = false;
 };
 
-constexpr const char* kQuickFactors =
-    "factors of patches that emit little are within 0.3 %, and a sum of them that is 4e-6 off is 4 % of the "
-    "answer";
-
 // Over single elements: counted pixels leave 1 %, most of it along the edges of the cube.
 constexpr double kScatter = 0.02;
 constexpr double kMostReflectance = 0.9999;
@@ -65,8 +61,6 @@ constexpr Furnace kFurnaces[] = {{0.5, 0.005, 294, 1e-5},
 void addFurnaces(Cases& cases) {
   for (const Furnace& f : kFurnaces) {
     const double rho = f.reflectance, tolerance = f.tolerance;
-    const std::vector<KnownException> exceptions = {{"rays", kQuickFactors, 3},
-                                                    {"hemicube-visibility", kQuickFactors, 3}};
     cases.push_back(
         {.key = "furnace-" + numberText(rho),
          .title = "closed cube, reflectance " + numberText(rho) + ", E = 1 on every wall",
@@ -85,7 +79,6 @@ void addFurnaces(Cases& cases) {
                          [=, t = &litCubeTruth(rho)](const Solve& s) {
                            return litCubeFigures(s, {t, t, t}, glm::dvec3(1.0), tolerance);
                          },
-                     .exceptions = rho == kMostReflectance ? exceptions : std::vector<KnownException>{},
                      .slow = f.slow});
   }
 }

@@ -63,14 +63,14 @@ class SessionGivingUp : public testing::Test {
 TEST_F(SessionGivingUp, ClosesSoonAtAnyMomentOfLoading) {
   const double load_seconds = loadSeconds();
   Dice dice(1);
-  for (int k = 0; k < 8; ++k) {
+  for (int k = 0; k < 5; ++k) {
     double least = INFINITY;
     std::string task;
     // What else the machine does can hold up one closing; one that is slow by itself is slow each time.
     for (int round = 0; round < 3 && least > soon(load_seconds); ++round) {
       SessionWatch watch;
       watch->open(scene_, options_);
-      const double moment = wallSeconds() + (k + dice.uniform()) / 8 * load_seconds;
+      const double moment = wallSeconds() + (k + dice.uniform()) / 5 * load_seconds;
       while (wallSeconds() < moment) std::this_thread::yield();
       const StatePointer state = watch->latest();
       const double asked = wallSeconds();
