@@ -5,6 +5,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "solver/counted.h"
+
 namespace unshot {
 namespace {
 
@@ -23,14 +25,17 @@ double medianOf(std::vector<double> values) {
 
 SolverError solverError(const Mesh& mesh, std::span<const glm::dvec3> radiosity,
                         std::span<const glm::dvec3> exact) {
-  const auto emission = [&](std::size_t q) { return mesh.sides[mesh.patch_side[q]].emission; };
-  bool all_emit = true;
-  for (std::uint32_t q = 0; q < mesh.patch_count && all_emit; ++q) all_emit = emission(q) != glm::dvec3(0.0);
+  std::vector<glm::dvec3> emission, reflectance;  // of sides
+  for (const Side& side : mesh.sides) {
+    emission.push_back(side.emission);
+    reflectance.push_back(side.reflectance);
+  }
+  const std::vector<char> counts = whereErrorsCount(emission, reflectance);
   double squares = 0, reflected_squares = 0, absolute = 0, reflected = 0;
   for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
-    const glm::dvec3 e = emission(q);
-    if (e != glm::dvec3(0.0) && !all_emit) continue;
-    const glm::dvec3 error = radiosity[q] - exact[q], light = exact[q] - e;
+    const std::uint32_t side = mesh.patch_side[q];
+    if (!counts[side]) continue;
+    const glm::dvec3 error = radiosity[q] - exact[q], light = exact[q] - emission[side];
     const double area = mesh.patch_area[q];
     squares += area * glm::dot(error, error);
     reflected_squares += area * glm::dot(light, light);

@@ -2,7 +2,7 @@
 // read off them.
 //
 // Errors are those of the solver: of the patches' radiosity B = S + U against the exact solution B* of the
-// same discrete system, on patches that do not emit (on all, where all emit), weighted by area.
+// same discrete system, where errors count (solver/counted.h), weighted by area.
 #pragma once
 
 #include <cstdint>

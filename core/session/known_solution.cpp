@@ -1,8 +1,9 @@
 #include "session/known_solution.h"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+
+#include "solver/counted.h"
 
 namespace unshot {
 
@@ -15,11 +16,10 @@ void KnownSolution::learn(const RadiosityState& state, const Transport& transpor
 std::optional<double> KnownSolution::errorOf(const RadiosityState& state, const Transport& transport) const {
   if (!known(transport)) return std::nullopt;
   const std::vector<glm::dvec3>& e = state.emission();
-  const bool all_emit =
-      std::none_of(e.begin(), e.end(), [](const glm::dvec3& x) { return x == glm::dvec3(0.0); });
+  const std::vector<char> counts = whereErrorsCount(e, state.reflectance());
   double error = 0, truth = 0;
   for (std::size_t q = 0; q < radiosity_.size(); ++q) {
-    if (!all_emit && e[q] != glm::dvec3(0.0)) continue;
+    if (!counts[q]) continue;
     const glm::dvec3 wrong = state.shot()[q] + state.unshot()[q] - radiosity_[q];
     const glm::dvec3 reflected = radiosity_[q] - e[q];
     error += state.area()[q] * glm::dot(wrong, wrong);

@@ -17,9 +17,9 @@ class KnownSolution {
   bool known(const Transport& transport) const {
     return !radiosity_.empty() && replaced_ == transport.replaced();
   }
-  /// RMS of B - B* over RMS of B* - E, on patches without emission of their own (on all, where all emit),
-  /// weighted by area, over channels: what SolverBounds::upper bounds. Nothing where the solution is not
-  /// known, or is that of drafts that have been replaced since.
+  /// RMS of B - B* over RMS of B* - E, where errors count (solver/counted.h), weighted by
+  /// area, over channels: what SolverBounds::upper bounds. Nothing where the solution is not known, or is
+  /// that of drafts that have been replaced since.
   std::optional<double> errorOf(const RadiosityState& state, const Transport& transport) const;
 
  private:

@@ -8,6 +8,7 @@
 
 #include "base/random.h"
 #include "session/fields.h"
+#include "solver/counted.h"
 #include "solver/patch_solve.h"
 
 namespace unshot {
@@ -192,7 +193,12 @@ std::optional<Ratio> squaredError(const Places& places, const Residuals& residua
 Residuals::Residuals(const Mesh& mesh, const Receivers& receivers, std::uint64_t seed)
     : mesh_(mesh), receivers_(receivers), seed_(mixBits(seed ^ 0x7265736964756cull)), gatherer_(mesh) {
   if (receivers.kind == ReceiverKind::kElements) element_points_.emplace(mesh);
-  for (const Side& side : mesh.sides) all_emit_ = all_emit_ && side.emission != glm::dvec3(0.0);
+  std::vector<glm::dvec3> emission, reflectance;
+  for (const Side& side : mesh.sides) {
+    emission.push_back(side.emission);
+    reflectance.push_back(side.reflectance);
+  }
+  counts_ = whereErrorsCount(emission, reflectance);
   double sum = 0;
   for (std::uint32_t t = 0; t < mesh.triangle_element.size(); ++t) {
     const std::uint32_t* corner = &mesh.triangle_vertices[3 * t];
@@ -218,7 +224,7 @@ double Residuals::areaOf(std::uint32_t receiver) const {
   return rows.start[receiver + 1] == first + 1 ? receivers_.area[rows.index[first]] : 0.0;
 }
 
-bool Residuals::counts(std::uint32_t patch) const { return all_emit_ || !mesh_.emits(patch); }
+bool Residuals::counts(std::uint32_t patch) const { return counts_[mesh_.patch_side[patch]] != 0; }
 
 // Every other place by light, where there is any.
 Residuals::Choice Residuals::choose(const std::vector<double>& area_sum, const std::vector<double>& light_sum,

@@ -12,7 +12,7 @@ constexpr double kSolverShare = 0.4;
 // Of that share: what may be unshot where there is no bound yet. Shots alone would ask for the columns that a
 // bound needs long after they have nothing left to do.
 constexpr double kLittleUnshot = 0.25;
-// Of the emitted power, unaccounted for: rounding leaves 1e-9 at most (10,000 scenes of the property tests).
+// Of the power that is accounted for: rounding leaves 1e-9 at most (10,000 scenes of the property tests).
 constexpr double kMostDrift = 1e-6;
 // What asks for a word is surely above the error asked for, and by estimate so many times as large.
 constexpr double kFarAbove = 3;
@@ -105,7 +105,7 @@ void Solve::Impl::checkStagnation() {
 // is missing shows a step that went wrong.
 void Solve::Impl::checkEnergy() {
   const EnergyBalance energy = energyOf(*transport, *state);
-  if (failure || !(energy.emitted > 0) || std::abs(energy.residual()) <= kMostDrift * energy.emitted) return;
+  if (failure || !(energy.emitted > 0) || std::abs(energy.residual()) <= kMostDrift * energy.size()) return;
   fail(ErrorKind::kInternal,
        "energy is not conserved: " + figureText(100 * energy.residual() / energy.emitted) +
            " % of what was emitted is unaccounted for",

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <numeric>
 
+#include "solver/counted.h"
 #include "solver/patch_sums.h"
 
 namespace unshot {
@@ -39,23 +39,33 @@ bool positivePair(F&& multiply, std::vector<glm::dvec3>& v, std::vector<glm::dve
 }  // namespace
 
 ErrorBounds::ErrorBounds(const PatchMatrix& matrix, const RadiosityState& state)
-    : matrix_(matrix),
-      state_(state),
-      counted_(state.patchCount()),
-      y_(state.patchCount(), glm::dvec3(0.0)),
-      norm_(matrix, state) {
+    : matrix_(matrix), state_(state), y_(state.patchCount(), glm::dvec3(0.0)), norm_(matrix, state) {
+  count(whereErrorsCount(state.emission(), state.reflectance()));
+}
+
+// All that was found for other counted patches is void.
+void ErrorBounds::count(std::vector<char> counted) {
+  counted_ = std::move(counted);
+  area_counted_.assign(counted_.size(), 0.0);
+  counted_area_ = 0;
+  emitters_count_ = false;
   for (std::size_t q = 0; q < counted_.size(); ++q) {
-    counted_[q] = state.emission()[q] == glm::dvec3(0.0);
-    if (counted_[q]) counted_area_ += state.area()[q];
+    if (!counted_[q]) continue;
+    area_counted_[q] = state_.area()[q];
+    counted_area_ += state_.area()[q];
+    emitters_count_ = emitters_count_ || state_.emission()[q] != glm::dvec3(0.0);
   }
-  if (counted_area_ == 0) {  // everything emits
-    all_emit_ = true;
-    std::fill(counted_.begin(), counted_.end(), 1);
-    counted_area_ = std::accumulate(state.area().begin(), state.area().end(), 0.0);
-  }
-  for (std::size_t q = 0; q < counted_.size(); ++q)
-    area_counted_.push_back(counted_[q] ? state.area()[q] : 0.0);
+  std::fill(y_.begin(), y_.end(), glm::dvec3(0.0));
   capTotal();
+}
+
+// Where no light comes to what emits nothing, errors of what emitters reflect are all there are.
+void ErrorBounds::countEmittersWhereNoLightLeaves() {
+  if (emitters_count_) return;
+  for (std::uint32_t q = 0; q < counted_.size(); ++q) {
+    if (counted_[q] && matrix_.reaches(q)) return;
+  }
+  count(std::vector<char>(counted_.size(), 1));
 }
 
 void ErrorBounds::multiply(const Field& x, Field& out) const {
@@ -205,6 +215,7 @@ bool ErrorBounds::refresh() {
   if (version_ != matrix_.version()) {
     version_ = matrix_.version();
     complete_ = allColumnsThatMatter();
+    if (complete_) countEmittersWhereNoLightLeaves();
   }
   if (z_.empty() && complete_) startTotal();
   if (!complete_) v_.clear();

@@ -14,8 +14,8 @@
 // it. In the mean square, NormBound bounds it without taking |U|. The smallest counts, as far as it was
 // tried.
 //
-// Errors count on patches without emission of their own (on all, where all emit), weighted by area, over
-// channels.
+// Errors count where solver/counted.h says, and on all patches where no light comes there; weighted by area,
+// over channels.
 #pragma once
 
 #include <algorithm>
@@ -78,6 +78,8 @@ class ErrorBounds {
   void multiply(const Field& x, Field& out) const;
   Field reflected(Field x) const;
   Field countedPlus(const Field& z) const;
+  void count(std::vector<char> counted);
+  void countEmittersWhereNoLightLeaves();
   void capTotal();
   void setTotal(Field z);
   void startTotal();
@@ -118,7 +120,7 @@ class ErrorBounds {
   std::vector<char> counted_;         // patches on which errors count
   std::vector<double> area_counted_;  // A there, 0 elsewhere
   double counted_area_ = 0;
-  bool all_emit_ = false;
+  bool emitters_count_ = false;  // some of them
   std::uint64_t revision_ = 0;
   bool complete_ = false;
   std::uint64_t version_ = 0;                           // of the matrix at the last refresh

@@ -50,7 +50,7 @@ void ErrorBounds::weightTotals() {
 // Each step of a solve comes here.
 ErrorBounds::Sums ErrorBounds::sumsNow() const {
   const double *u = channels(state_.unshot()), *shot = channels(state_.shot()),
-               *emission = all_emit_ ? channels(state_.emission()) : nullptr;
+               *emission = emitters_count_ ? channels(state_.emission()) : nullptr;
   const float *upper = upper_weights_.data(), *lower = lower_weights_.data();
   Lanes arriving, weighted, negative, reflected, squares;
   forLanes(state_.patchCount(), [&](std::size_t q, auto lanes) {

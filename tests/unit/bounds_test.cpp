@@ -39,12 +39,11 @@ struct BoundedRun {
   struct Errors {
     double total = 0, rms = 0;
   };
+  /// On patches without emission, or on those that emit where `of_emitters`.
   Errors errors() const {
     double error = 0, truth = 0, error2 = 0, truth2 = 0;
-    const bool all_emit = std::all_of(system.emission.begin(), system.emission.end(),
-                                      [](const glm::dvec3& e) { return e != glm::dvec3(0.0); });
     for (std::size_t q = 0; q < system.patch_area.size(); ++q) {
-      if (system.emission[q] != glm::dvec3(0.0) && !all_emit) continue;
+      if ((system.emission[q] != glm::dvec3(0.0)) != of_emitters) continue;
       for (int c = 0; c < 3; ++c) {
         const double a = system.patch_area[q], e = exact[c][q] - state.shot()[q][c] - state.unshot()[q][c];
         const double reflected = exact[c][q] - system.emission[q][c];
@@ -56,6 +55,7 @@ struct BoundedRun {
     }
     return {error / truth, std::sqrt(error2 / truth2)};
   }
+  bool of_emitters = false;
   void expectToHold(const SolverBounds& b) const {
     // What rounding of the state itself leaves (some hundred sums in double).
     const double slack = 1e-12;
@@ -114,6 +114,7 @@ TEST(Bounds, HoldBetweenSharpenings) {
     TableSystem system = randomSystem(seed, 17, 2, false, 0.95);
     if (seed > 3) std::fill(system.emission.begin(), system.emission.end(), glm::dvec3(1.0, 0.5, 2.0));
     BoundedRun run(system);
+    run.of_emitters = seed > 3;
     const auto mode = makeGaussSeidel();
     for (int k = 0; k < 40; ++k) mode->step(run.state, run.transport);
     for (int k = 0; k < 30; ++k) run.bounds.refresh();
@@ -139,6 +140,37 @@ TEST(Bounds, HoldForUnshotLightOfEitherSign) {
       run.expectToHold(run.bounds.at());
       run.expectToHold(run.bounds.sharpened(2));
     }
+  }
+}
+
+// What emits nothing is black, or sees other patches than lamps alone do: what lamps reflect is all there is.
+TEST(Bounds, AreOfEmittersWhereNothingElseReflectsLight) {
+  for (const bool black : {true, false}) {
+    TableSystem system = randomSystem(9, 15, 2, false, 0.9);
+    const auto emits = [&](std::uint32_t q) { return system.emission[q] != glm::dvec3(0.0); };
+    for (std::uint32_t q = 0; q < 15; ++q) {
+      if (black && !emits(q)) system.reflectance[q] = glm::dvec3(0.0);
+    }
+    for (const auto& share : system.receivers.shares) {
+      system.receivers.reflectance[share.receiver] = system.reflectance[share.patch];
+      for (std::uint32_t q = 0; q < 15 && !black; ++q) {
+        if (emits(q) != emits(share.patch)) system.k[share.receiver][q] = 0;
+      }
+    }
+    BoundedRun run(system);
+    run.of_emitters = true;
+    const auto mode = makeSouthwell();
+    for (int k = 0; k < 60; ++k) {
+      if (!mode->step(run.state, run.transport)) break;
+      run.bounds.refresh();
+      run.expectToHold(run.bounds.at());
+      run.expectToHold(run.bounds.sharpened(3));
+    }
+    for (int k = 0; k < 30; ++k) run.bounds.refresh();
+    const SolverBounds last = run.bounds.sharpened(8);
+    EXPECT_LT(last.upper, 0.01) << black;
+    EXPECT_LT(last.total_upper, 0.01) << black;
+    EXPECT_GT(last.upper, 0) << black;
   }
 }
 
