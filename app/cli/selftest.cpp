@@ -23,20 +23,29 @@ namespace unshot {
 namespace {
 
 struct SelftestRequest {
-  std::string mode = "auto", form_factors = "auto", trial = "all", gl = "auto";
+  std::string mode = "auto", form_factors = "auto", trial = "all", mesh = "even", gl = "auto";
   bool json = false;
 
-  bool plain() const { return mode == "auto" && form_factors == "auto" && trial == "all"; }
+  bool plain() const { return mode == "auto" && form_factors == "auto" && trial == "all" && mesh == "even"; }
 };
 
 /// One solve to be made.
 struct Run {
   const StabilityCase* trial;
   std::string mode, form_factors;
+  Fineness fineness = Fineness::kEven;
 };
 
 /// What every form-factor method goes through, and with it this machine's OpenGL, without being asked.
 constexpr std::string_view kForEveryMethod[] = {"lit-face-0.9", "blocks", "door"};
+/// And what goes through a mesh that follows the light.
+constexpr std::string_view kOnLight[] = {"lit-face-0.9", "lit-face-0.9999", "all-white", "blocks", "door"};
+
+bool isAmong(std::span<const std::string_view> keys, const StabilityCase& trial) {
+  return std::find(keys.begin(), keys.end(), trial.key) != keys.end();
+}
+
+constexpr std::string_view kMeshes[] = {"even", "light", "all"};
 
 template <class Row>
 std::vector<std::string> keysAsked(std::span<const Row> table, const std::string& asked) {
@@ -51,15 +60,21 @@ std::vector<Run> runsOf(const SelftestRequest& request) {
   for (const StabilityCase& trial : stabilityCases()) {
     if (request.trial != "all" && request.trial != trial.key) continue;
     for (const std::string& mode : keysAsked(iterationModes(), request.mode)) {
-      for (const std::string& method : keysAsked(formFactorMethods(), request.form_factors))
-        runs.push_back({&trial, mode, method});
+      for (const std::string& method : keysAsked(formFactorMethods(), request.form_factors)) {
+        for (const Fineness fineness : {Fineness::kEven, Fineness::kLight}) {
+          if (request.mesh == "all" || request.mesh == nameOf(fineness))
+            runs.push_back({&trial, mode, method, fineness});
+        }
+      }
     }
   }
   if (!request.plain()) return runs;
+  for (const StabilityCase& trial : stabilityCases()) {
+    if (isAmong(kOnLight, trial)) runs.push_back({&trial, "auto", "auto", Fineness::kLight});
+  }
   for (const FormFactorMethodRow& row : formFactorMethods()) {
     for (const StabilityCase& trial : stabilityCases()) {
-      if (std::count(std::begin(kForEveryMethod), std::end(kForEveryMethod), trial.key) > 0)
-        runs.push_back({&trial, "auto", std::string(row.info.key)});
+      if (isAmong(kForEveryMethod, trial)) runs.push_back({&trial, "auto", std::string(row.info.key)});
     }
   }
   return runs;
@@ -75,12 +90,13 @@ class Table {
   }
 
   void head() const {
-    line({"case", "mode", "form factors", "figure", "expected", "got", "error", "tolerance", "s", "verdict"});
+    line({"case", "mesh", "mode", "form factors", "figure", "expected", "got", "error", "tolerance", "s",
+          "verdict"});
   }
   void row(const StabilityResult& r) const {
     const Figure& f = r.figure;
     const bool measured = std::isfinite(f.got);
-    line({r.case_key, r.mode, r.form_factors, f.what,
+    line({r.case_key, std::string(nameOf(r.fineness)), r.mode, r.form_factors, f.what,
           !measured   ? "-"
           : f.at_most ? "<= " + shortText(f.expected)
                       : shortText(f.expected),
@@ -104,9 +120,9 @@ class Table {
   }
   static std::string errorText(double value) { return value == 0 ? "0" : percentText(value); }
   void line(const std::vector<std::string>& cells) const {
-    const int widths[] = {case_, mode_, method_, 23, 10, 10, 11, 9, 5};
+    const int widths[] = {case_, 5, mode_, method_, 23, 10, 10, 11, 9, 5};
     for (std::size_t k = 0; k < std::size(widths); ++k) {
-      std::cout << (k < 4 ? std::left : std::right) << std::setw(widths[k]) << cells[k] << "  ";
+      std::cout << (k < 5 ? std::left : std::right) << std::setw(widths[k]) << cells[k] << "  ";
     }
     std::cout << cells.back() << "\n";
   }
@@ -120,6 +136,7 @@ nlohmann::ordered_json jsonOf(const StabilityResult& r) {
     return std::isfinite(f.got) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
   };
   return {{"case", r.case_key},
+          {"mesh", nameOf(r.fineness)},
           {"mode", r.mode},
           {"form_factors", r.form_factors},
           {"figure", f.what},
@@ -158,7 +175,7 @@ int runSelftest(const SelftestRequest& request) {
     for (const Run& run : runsOf(request)) {
       results.push_back(runStability(
           *run.trial, run.mode, run.form_factors, [&]() -> gl::Context& { return context.get(); },
-          interrupted.token()));
+          run.fineness, interrupted.token()));
       if (!request.json) table.row(results.back());
     }
   } catch (const Cancelled&) {
@@ -210,7 +227,8 @@ void setUpSelftest(Command& command) {
   command.footer(
       "Solves scenes whose answer is known exactly, and prints for each the figure that is farthest\n"
       "into its tolerance. Without options: every case with the default mode and method, then a\n"
-      "few with every form-factor method, so that OpenGL is tried too. A mode or method that is\n"
+      "few on a mesh that follows the light and with every form-factor method, so that OpenGL is tried too. "
+      "A mode or method that is\n"
       "known not to keep a tolerance is an exception, and the reason stands below its line;\n"
       "`refused` is what the program itself says is not for a scene.\n"
       "Ends with 6 where a case is outside its tolerance.\n\nCases: " +
@@ -220,6 +238,14 @@ void setUpSelftest(Command& command) {
               keyOrAll(modes));
   command.add("--form-factors", request->form_factors, "F",
               "Form factors: all, " + keysOf(methods, true) + " (default auto)", keyOrAll(methods));
+  command.add("--mesh", request->mesh, "M",
+              "even (default): as fine as a case asks for; light: one that follows the light, as without "
+              "options; or all",
+              [](const std::string& key) -> std::string {
+                const bool known =
+                    std::find(std::begin(kMeshes), std::end(kMeshes), key) != std::end(kMeshes);
+                return known ? std::string() : "there is no '" + key + "'; it is one of even, light, all";
+              });
   command.add("--gl", request->gl, "P", "Provider of OpenGL: " + keysOf(gl::providers(), true),
               keyOf(gl::providers(), true));
   command.flag("--json", request->json, "Print JSON");

@@ -16,6 +16,9 @@ constexpr double kMostScale = 4;
 constexpr float kSame = 0.999f;
 // Share of its view from which what a refined vertex sees by itself is scaled by itself.
 constexpr double kGoodPart = 0.1;
+// Of a patch; single precision holds no more. And rounds that take it there.
+constexpr double kClosed = 1e-9;
+constexpr int kMostRounds = 100;
 
 // What emitters reflect, of what the scene absorbs, from which their columns are scaled too.
 constexpr double kMuchByEmitters = 0.2;
@@ -88,6 +91,41 @@ void scaleRefined(const Receivers& receivers, const RowSums& sums, std::span<con
   }
 }
 
+// Patches: sum over a patch's receivers of both layers = its area less what escapes. Each patch in turn asks
+// its base receivers for what it lacks (Kaczmarz), which takes a tenth or less at each round.
+void closePatches(std::size_t patch_count, const Receivers& receivers, const RowSums& sums,
+                  const std::vector<std::uint32_t>& twins, std::span<const float> escape,
+                  std::vector<float>& scale) {
+  std::vector<std::vector<PatchShare>> shares(patch_count);
+  std::vector<char> known(patch_count, 1);
+  std::vector<double> wanted(patch_count, 0.0), factor(scale.begin(), scale.end());
+  for (const PatchShare& s : receivers.shares) {
+    shares[s.patch].push_back(s);
+    if (s.receiver < receivers.base_first) continue;
+    if (!escape.empty() && twins[s.receiver] == kNone) known[s.patch] = 0;
+    wanted[s.patch] += s.area * (1 - (escape.empty() ? 0.0 : static_cast<double>(escape[s.receiver])));
+  }
+  for (int round = 0; round < kMostRounds; ++round) {
+    double worst = 0;
+    for (std::uint32_t p = 0; p < patch_count; ++p) {
+      double has = 0, room = 0;
+      for (const PatchShare& s : shares[p]) {
+        has += s.area * (sums.exact[s.receiver] + factor[s.receiver] * sums.scaled[s.receiver]);
+        if (s.receiver >= receivers.base_first) room += s.area * sums.scaled[s.receiver];
+      }
+      if (!known[p] || room < kGoodPart * wanted[p]) continue;
+      worst = std::max(worst, std::abs(wanted[p] - has) / wanted[p]);
+      for (const PatchShare& s : shares[p]) {
+        if (s.receiver < receivers.base_first) continue;
+        double& f = factor[s.receiver];
+        f = std::clamp(f + (wanted[p] - has) / room, 0.0, kMostScale);
+      }
+    }
+    if (worst < kClosed) break;
+  }
+  std::copy(factor.begin() + receivers.base_first, factor.end(), scale.begin() + receivers.base_first);
+}
+
 }  // namespace
 
 double reflectionGain(const Mesh& mesh) {
@@ -129,7 +167,20 @@ RowClosure closeRows(const Mesh& mesh, const Transport& transport, std::span<con
     area += receivers.area[v];
   }
   if (area > 0) out.rms_defect = std::sqrt(squares / area);
-  if (receivers.layered()) scaleRefined(receivers, sums, escape, out.scale);
+  if (receivers.layered()) {
+    scaleRefined(receivers, sums, escape, out.scale);
+    closePatches(mesh.patch_count, receivers, sums, twins, escape, out.scale);
+  }
+  return out;
+}
+
+RowClosure closeExactRows(const Mesh& mesh, const Transport& transport) {
+  const Receivers& receivers = transport.receivers();
+  RowClosure out;
+  out.exact.assign(transport.patchCount(), 0);
+  out.scale.assign(transport.receiverCount(), 1.0f);
+  if (receivers.layered())
+    closePatches(mesh.patch_count, receivers, sumRows(transport, out.exact), {}, {}, out.scale);
   return out;
 }
 

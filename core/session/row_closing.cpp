@@ -11,6 +11,8 @@ namespace {
 // Reflection gains (reflectionGain) below which an error of the rows counts for less than what it takes to
 // mend it: in a closed scene, and in another.
 constexpr double kClosedGain = 1, kOpenGain = 4;
+// What an exact form factor lacks to 1 at most where nothing escapes.
+constexpr double kExactRounding = 1e-6;
 // Row sums are off by more than this before a word is said.
 constexpr double kWorthAWord = 0.002;
 
@@ -20,13 +22,22 @@ void Solve::Impl::planClosure(const CancelToken& cancel) {
   const Receivers& receivers = transport->receivers();
   const double gain = reflectionGain(*mesh);
   high_gain = gain >= kOpenGain;
-  closure_pending = receivers.kind == ReceiverKind::kVertices && form_factors_key != "closed-form" &&
+  const bool exact = form_factors_key == "closed-form";
+  closure_pending = receivers.kind == ReceiverKind::kVertices && (!exact || receivers.layered()) &&
                     !options.bounces && gain >= kClosedGain;
   // The sky is a source of its own, which holds what would escape.
-  if (!closure_pending || !high_gain || sky != glm::dvec3(0.0)) return;
+  if (!closure_pending || !high_gain || exact || sky != glm::dvec3(0.0)) return;
   const SkySource openings = lookAtSky(*mesh, receivers, options.seed, cancel);
   escape.assign(receivers.size(), 0.0f);
   openings.column.forEach([&](std::uint32_t v, double k) { escape[v] = static_cast<float>(k); });
+}
+
+// A patch sends so much of its light out of the scene, in which rows can be closed only where it is known
+// from where.
+void Solve::Impl::noteOpening(double escapes) {
+  const bool exact = form_factors_key == "closed-form";
+  const bool known = sky != glm::dvec3(0.0) || (exact ? escapes < kExactRounding : !escape.empty());
+  if (!known) closure_pending = false;
 }
 
 // Whether nothing but columns that were not asked for stands before it.
@@ -41,7 +52,8 @@ bool Solve::Impl::closeRows() {
     return false;
   }
   closure_pending = false;
-  RowClosure closure = unshot::closeRows(*mesh, *transport, escape);
+  RowClosure closure = form_factors_key == "closed-form" ? closeExactRows(*mesh, *transport)
+                                                         : unshot::closeRows(*mesh, *transport, escape);
   if (closure.rms_defect > kWorthAWord)
     diagnostics.push_back({Severity::kNote,
                            "rows-closed",

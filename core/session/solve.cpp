@@ -76,7 +76,7 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl, const CancelT
     // What the sky shines on need not see each other.
     if (q < mesh->patch_count) ambient->sees(q, column, transport->receivers());
     budget->columnComputed(q, column);
-    if (column.escape > 0 && escape.empty() && sky == glm::dvec3(0.0)) closure_pending = false;
+    if (column.escape > 0) noteOpening(column.escape);
   });
   planClosure(cancel);
   if (transport->receivers().layered() && !options.bounces)

@@ -96,6 +96,7 @@ struct Solve::Impl {
   bool lacksBound() const;
   bool completeColumns();
   void planClosure(const CancelToken& cancel);
+  void noteOpening(double escape);
   bool closureIsDue() const;
   bool closureIsUrgent() const;
   bool closeRows();

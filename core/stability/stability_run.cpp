@@ -35,6 +35,11 @@ bool judge(const StabilityCase& trial, const Solve& solve, StabilityResult& resu
     figures.push_back(passesUntilSaid(solve, kMostPasses));
   } else {
     figures = trial.measure(solve);
+    if (result.fineness == Fineness::kLight) {
+      for (Figure& f : figures) {
+        if (f.tolerance > 0) f.tolerance = std::max(f.tolerance, kLightTolerance);
+      }
+    }
   }
   result.figure = *std::max_element(figures.begin(), figures.end(),
                                     [](const Figure& a, const Figure& b) { return a.strain() < b.strain(); });
@@ -97,10 +102,13 @@ std::string_view nameOf(Verdict verdict) {
   }
 }
 
+std::string_view nameOf(Fineness fineness) { return fineness == Fineness::kEven ? "even" : "light"; }
+
 StabilityResult runStability(const StabilityCase& trial, const std::string& mode,
                              const std::string& form_factors, const std::function<gl::Context&()>& gl,
-                             const CancelToken& cancel) {
+                             Fineness fineness, const CancelToken& cancel) {
   StabilityResult result;
+  result.fineness = fineness;
   result.case_key = trial.key;
   result.mode = mode;
   result.form_factors = form_factors;
@@ -109,6 +117,11 @@ StabilityResult runStability(const StabilityCase& trial, const std::string& mode
   options.mode = mode;
   options.form_factors = form_factors;
   options.soonest = true;  // as `unshot solve`
+  if (fineness == Fineness::kLight) {
+    options.elements.reset();
+    options.element_size.reset();
+    options.error = kLightError;
+  }
   options.max_seconds = trial.large ? kLargestSeconds : kMostSeconds;
   // While the program says that something is not for a scene, it does so in its own words; no folder for
   // files and no OpenGL have no excuse.

@@ -18,8 +18,22 @@ enum class Verdict {
 
 std::string_view nameOf(Verdict verdict);
 
+/// What a case is solved on.
+enum class Fineness {
+  kEven,  ///< the even mesh that the case names, its error the solver's
+  /// A mesh that follows the light, as fine as kLightError asks for: what a solve does without options, held
+  /// to the case's tolerance or to kLightTolerance where that is more.
+  kLight
+};
+inline constexpr double kLightError = 0.01;
+/// Of single figures: the error asked for is a mean over the scene, and an estimate.
+inline constexpr double kLightTolerance = 1.5 * kLightError;
+
+std::string_view nameOf(Fineness fineness);
+
 struct StabilityResult {
   std::string case_key;
+  Fineness fineness = Fineness::kEven;
   std::string mode, form_factors;  ///< what `auto` became; as asked for where there is no solve
   Figure figure;                   ///< the one farthest into its tolerance, or beyond
   double seconds = 0;              ///< wall time, with scene and mesh
@@ -32,6 +46,6 @@ struct StabilityResult {
 /// where `cancel` asks for it.
 StabilityResult runStability(const StabilityCase& trial, const std::string& mode,
                              const std::string& form_factors, const std::function<gl::Context&()>& gl,
-                             const CancelToken& cancel = {});
+                             Fineness fineness = Fineness::kEven, const CancelToken& cancel = {});
 
 }  // namespace unshot

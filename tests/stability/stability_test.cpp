@@ -15,6 +15,13 @@ TEST(Stability, EveryCaseHoldsByDefault) {
   }
 }
 
+// What a solve does without options.
+TEST(Stability, EveryCaseHoldsOnAMeshThatFollowsTheLight) {
+  for (const StabilityCase& trial : stabilityCases()) {
+    if (!trial.large) expectStable(trial, "auto", "auto", Expected::kPass, Fineness::kLight);
+  }
+}
+
 class StabilityOfModes : public testing::TestWithParam<IterationModeRow> {};
 
 TEST_P(StabilityOfModes, HoldsInEveryCaseButTheSlow) {

@@ -12,8 +12,9 @@
 namespace unshot::testing_support {
 
 inline StabilityResult stabilityOf(const StabilityCase& trial, const std::string& mode,
-                                   const std::string& method) {
-  return runStability(trial, mode, method, []() -> gl::Context& { return sharedContext(); });
+                                   const std::string& method, Fineness fineness = Fineness::kEven) {
+  return runStability(
+      trial, mode, method, []() -> gl::Context& { return sharedContext(); }, fineness);
 }
 
 enum class Expected {
@@ -22,8 +23,8 @@ enum class Expected {
 };
 
 inline void expectStable(const StabilityCase& trial, const std::string& mode, const std::string& method,
-                         Expected expected = Expected::kNoSurprise) {
-  const StabilityResult r = stabilityOf(trial, mode, method);
+                         Expected expected = Expected::kNoSurprise, Fineness fineness = Fineness::kEven) {
+  const StabilityResult r = stabilityOf(trial, mode, method, fineness);
   const std::string text = r.case_key + ", " + r.mode + ", " + r.form_factors + ": " + r.figure.what + " " +
                            std::to_string(r.figure.got) + " of " + std::to_string(r.figure.expected) + ", " +
                            std::string(nameOf(r.verdict)) + (r.note.empty() ? "" : ": " + r.note);
