@@ -33,7 +33,8 @@ void Solve::Impl::fail(ErrorKind kind, std::string why, std::string advice) {
 
 // Converged, but for the local pass.
 void Solve::Impl::finish(std::string why) {
-  if (!isLight(*state)) return failWithoutSolution();
+  // A bound there is only where light dies out; then what lies below zero is the error that it allows.
+  if (measures.solverBound() == kNoBound && !isLight(*state)) return failWithoutSolution();
   if (!local_pass) return stop(SolveState::kConverged, std::move(why));
   finished_by = std::move(why);
   local_pass->begin(*state, makeField(*mesh, transport->receivers(), state->irradiance()).elements);

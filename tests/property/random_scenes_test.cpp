@@ -124,6 +124,13 @@ TEST_P(RandomScenes, AreSolvedWithAllLawsHeld) {
   EXPECT_GT(2 * compared, looked_at);
 }
 
+// `overshoot` had brought the error of a loose bound below zero in a dim channel, and was said to have no
+// solution.
+TEST(RandomSceneAgain, OfManyThatWereLookedAt) {
+  std::uint64_t compared = 0;
+  lookAt(1697, compared);
+}
+
 INSTANTIATE_TEST_SUITE_P(Parts, RandomScenes, testing::Range<std::uint64_t>(0, kParts));
 
 }  // namespace
