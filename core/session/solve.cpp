@@ -24,6 +24,8 @@ constexpr std::uint64_t kShotsBeforeMore = 200;
 constexpr std::uint64_t kReceiversAtOnce = 1'000'000;
 // Of them so many along columns that have to be computed.
 constexpr std::uint64_t kColumnsAtOnce = 2;
+// Patches whose columns take a minute or two; with more, limits of time come before the first bounce.
+constexpr std::uint32_t kMostForGmres = 20'000;
 
 void checkError(double error) {
   if (error > 0 && error < 1) return;
@@ -134,8 +136,9 @@ void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl, const C
 }
 
 void Solve::Impl::chooseMode(const std::string& key) {
-  // Where much is reflected, shot after shot takes as many bounces as light does.
-  const std::string soonest = options.soonest && high_gain ? "gmres" : "southwell";
+  // Where much is reflected, shot after shot takes as many bounces as light does. It needs all columns first.
+  const bool few = mesh->patch_count <= kMostForGmres;
+  const std::string soonest = options.soonest && high_gain && few ? "gmres" : "southwell";
   const std::string chosen = key != "auto" ? key : options.bounces ? "jacobi" : soonest;
   if (options.bounces && chosen != "jacobi") {
     throw Error(ErrorKind::kUsage,
