@@ -7,9 +7,9 @@
 // So the rows are scaled, once all columns are known. Columns of sources that emit a good share of the light
 // are exact and stay, those of all emitters where they reflect little; the others take up the difference.
 //
-// Of two layers of receivers (receivers.h) it is patches that are closed in the end: they take the mean of the
-// one layer over other places than that of the other, so that closed rows alone would leave them 1e-5 to 1e-3
-// open, exact form factors no less.
+// Of two layers of receivers (receivers.h) it is patches that are closed in the end: they take the mean of
+// the one layer over other places than that of the other, so that closed rows alone would leave them 1e-5 to
+// 1e-3 open, exact form factors no less.
 //
 // Known error: the difference is spread over all that a receiver sees in proportion, wherever it arose.
 #pragma once

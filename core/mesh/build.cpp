@@ -12,6 +12,7 @@
 #include "mesh/display.h"
 #include "mesh/grid.h"
 #include "mesh/numbering.h"
+#include "mesh/reach.h"
 #include "mesh/surfaces.h"
 #include "mesh/weld.h"
 
@@ -28,40 +29,74 @@ std::uint32_t patchCells(double elements) {
   return cells;
 }
 
-// A side is left out only if nothing of the scene lies in front of it and there is no sky: then no light
-// reaches it and its own meets nothing.
-void makeSides(const Scene& scene, const MeshOptions& options, Mesh& mesh, const CancelToken& cancel) {
-  std::vector<glm::dvec3> used;
-  used.reserve(mesh.triangles.size() * 3);
-  std::vector<char> seen(mesh.positions.size(), 0);
-  for (const ChartTriangle& t : mesh.triangles) {
-    for (const std::uint32_t v : t.position) {
-      if (!seen[v]) used.push_back(mesh.positions[v]);
-      seen[v] = 1;
-    }
-  }
-  const PointTree tree(used, cancel);
-  const double margin = 2 * weldDistance(scene);
-  const auto seesSomething = [&](const Surface& surface, bool back) {
-    cancel.check();
+// What lies in front of surfaces.
+class Fronts {
+ public:
+  Fronts(const Mesh& mesh, const CancelToken& cancel)
+      : margin_(2 * mesh.weld_distance), points_(pointsOf(mesh)), tree_(points_, cancel) {}
+
+  bool seesSomething(const Surface& surface, bool back) const {
     const glm::dvec3 normal = back ? -surface.normal : surface.normal;
-    return tree.anyInFront(normal, glm::dot(normal, surface.origin) + margin);
-  };
+    return tree_.anyInFront(normal, glm::dot(normal, surface.origin) + margin_);
+  }
+
+ private:
+  static std::vector<glm::dvec3> pointsOf(const Mesh& mesh) {
+    std::vector<glm::dvec3> used;
+    used.reserve(mesh.triangles.size() * 3);
+    std::vector<char> seen(mesh.positions.size(), 0);
+    for (const ChartTriangle& t : mesh.triangles) {
+      for (const std::uint32_t v : t.position) {
+        if (!seen[v]) used.push_back(mesh.positions[v]);
+        seen[v] = 1;
+      }
+    }
+    return used;
+  }
+
+  double margin_;
+  std::vector<glm::dvec3> points_;
+  PointTree tree_;
+};
+
+// Two flags for each surface: whether light may reach that side, which it does not where nothing of the scene
+// lies in front of it (and its own meets nothing then), nor where surfaces keep it away (mesh/reach.h).
+std::vector<char> sidesToKeep(const MeshOptions& options, const SurfaceTopology& topology,
+                              std::span<const Crossing> crossings, const Mesh& mesh,
+                              const CancelToken& cancel) {
+  const std::size_t count = 2 * mesh.surfaces.size();
+  std::vector<char> keep(count, 1);
+  if (options.sky) return keep;
+  const Fronts fronts(mesh, cancel);
+  for (std::size_t k = 0; k < count; ++k) {
+    cancel.check();
+    keep[k] = fronts.seesSomething(mesh.surfaces[k / 2], k % 2 != 0);
+  }
   // A flat sheet sees nothing at all; it is kept whole, so that it can be shown.
-  const bool keep_all =
-      options.sky || std::none_of(mesh.surfaces.begin(), mesh.surfaces.end(), [&](const Surface& s) {
-        return seesSomething(s, false) || seesSomething(s, true);
-      });
+  if (std::find(keep.begin(), keep.end(), 1) == keep.end()) return std::vector<char>(count, 1);
+  std::vector<char> emits(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const bool light = mesh.materials[mesh.surfaces[k / 2].material].emits();
+    emits[k] = keep[k] && light && !(k % 2 != 0 && options.emit_front_only);
+  }
+  const std::vector<char> reached =
+      findReach(mesh, topology.edges, crossings, emits, mesh.weld_distance, cancel);
+  for (std::size_t k = 0; k < count; ++k) keep[k] = keep[k] && reached[k];
+  return keep;
+}
+
+void makeSides(const MeshOptions& options, const std::vector<char>& keep, Mesh& mesh) {
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
     Surface& surface = mesh.surfaces[s];
+    const Material& material = mesh.materials[surface.material];
     for (int back = 0; back < 2; ++back) {
-      if (!keep_all && !seesSomething(surface, back)) continue;
+      if (!keep[2 * s + static_cast<std::uint32_t>(back)]) continue;
       Side side;
       side.surface = s;
       side.back = back;
       side.normal = back ? -surface.normal : surface.normal;
-      side.reflectance = scene.materials[surface.material].reflectance;
-      if (!back || !options.emit_front_only) side.emission = scene.materials[surface.material].emission;
+      side.reflectance = material.reflectance;
+      if (!back || !options.emit_front_only) side.emission = material.emission;
       surface.side[back] = static_cast<std::uint32_t>(mesh.sides.size());
       mesh.sides.push_back(side);
       mesh.lit_area += surface.area;
@@ -250,12 +285,13 @@ Mesh buildMesh(const Scene& scene, const MeshOptions& options, const CancelToken
                 "unshot check on the scene");
   }
   sayExtremeSize(mesh, scene);
-  makeSides(scene, options, mesh, cancel);
   const double tolerance = mesh.weld_distance = weldDistance(scene);
+  const std::vector<Crossing> crossings = findCrossings(mesh, 2 * tolerance, cancel);
+  makeSides(options, sidesToKeep(options, topology, crossings, mesh, cancel), mesh);
   cancel.check();
   const double size = options.element_size.value_or(
       std::sqrt(mesh.lit_area / static_cast<double>(options.elements.value_or(kDefaultElements))));
-  const Contacts contacts = findContacts(mesh, topology.edges, 2 * tolerance, size, cancel);
+  const Contacts contacts = findContacts(mesh, topology.edges, crossings, 2 * tolerance, size, cancel);
   if (options.elements) {
     gridForCount(mesh, static_cast<double>(*options.elements), options.paired_cells, contacts, tolerance,
                  cancel);

@@ -139,8 +139,64 @@ std::optional<ContactSegment> crossing(const Surface& surface, const std::array<
   return count == 2 ? std::optional(ContactSegment{points[0], points[1]}) : std::nullopt;
 }
 
-// Where triangles of other surfaces pass through each surface.
-void addCrossings(const Mesh& mesh, double distance, const CancelToken& cancel, Contacts& out) {
+// Edges no higher above a surface than `reachOf` says that lie within its rectangle, where
+// `accepts(height, length)`.
+template <class Reach, class Accept>
+std::vector<Touch> edgesNear(const Mesh& mesh, const std::vector<SurfaceEdge>& edges, double distance,
+                             const Reach& reachOf, const Accept& accepts, const CancelToken& cancel) {
+  // Each edge once, however many polygons share it; `first` is the first of its uses.
+  std::vector<std::uint32_t> first;
+  std::vector<Box> boxes;
+  for (std::uint32_t k = 0; k < edges.size(); ++k) {
+    if (k > 0 && edges[k].a == edges[k - 1].a && edges[k].b == edges[k - 1].b) continue;
+    const glm::dvec3 &p = mesh.positions[edges[k].a], &q = mesh.positions[edges[k].b];
+    first.push_back(k);
+    boxes.push_back({glm::min(p, q), glm::max(p, q)});
+  }
+  // Whether the surface has the edge itself: then it is outline already.
+  const auto owns = [&](std::uint32_t surface, std::uint32_t k) {
+    for (std::uint32_t use = k;
+         use < edges.size() && edges[use].a == edges[k].a && edges[use].b == edges[k].b; ++use) {
+      if (edges[use].surface == surface) return true;
+    }
+    return false;
+  };
+  const BoxTree tree(std::move(boxes), cancel);
+  std::vector<Touch> out;
+  for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
+    cancel.check();
+    const Surface& surface = mesh.surfaces[s];
+    const double reach = reachOf(surface);
+    Box box{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
+    for (std::uint32_t t = surface.triangles.first; t < surface.triangles.end(); ++t) {
+      for (const std::uint32_t v : mesh.triangles[t].position) {
+        box.low = glm::min(box.low, mesh.positions[v] - reach);
+        box.high = glm::max(box.high, mesh.positions[v] + reach);
+      }
+    }
+    tree.overlapping(box, [&](std::uint32_t index) {
+      const SurfaceEdge& e = edges[first[index]];
+      const glm::dvec3 p = mesh.positions[e.a] - surface.origin, q = mesh.positions[e.b] - surface.origin;
+      const double height =
+          std::max(std::abs(glm::dot(p, surface.normal)), std::abs(glm::dot(q, surface.normal)));
+      if (height > reach || !accepts(height, glm::distance(p, q))) return;
+      if (owns(s, first[index])) return;
+      const ContactSegment segment{{glm::dot(p, surface.axis_u), glm::dot(p, surface.axis_v)},
+                                   {glm::dot(q, surface.axis_u), glm::dot(q, surface.axis_v)}};
+      const auto outside = [&](int axis) {
+        return std::max(segment.a[axis], segment.b[axis]) <= distance ||
+               std::min(segment.a[axis], segment.b[axis]) >= surface.extent[axis] - distance;
+      };
+      if (!outside(0) && !outside(1)) out.push_back({s, first[index], segment});
+    });
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Crossing> findCrossings(const Mesh& mesh, double distance, const CancelToken& cancel) {
+  std::vector<Crossing> out;
   const auto cornersOf = [&](std::uint32_t t) {
     const std::uint32_t* v = mesh.triangles[t].position;
     return std::array<glm::dvec3, 3>{mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
@@ -163,64 +219,32 @@ void addCrossings(const Mesh& mesh, double distance, const CancelToken& cancel, 
       if (owner[other] == owner[t]) return;
       const auto line = crossing(surface, cornersOf(other), distance);
       const auto inside = line ? partInside(*line, mesh.triangles[t], distance) : std::nullopt;
-      if (inside) out[owner[t]].push_back(*inside);
+      if (inside) out.push_back({owner[t], owner[other], *inside});
     });
   }
+  return out;
 }
 
-}  // namespace
+std::vector<Touch> findTouches(const Mesh& mesh, const std::vector<SurfaceEdge>& edges, double distance,
+                               const CancelToken& cancel) {
+  return edgesNear(
+      mesh, edges, distance, [&](const Surface&) { return distance; },
+      [&](double height, double) { return height <= distance; }, cancel);
+}
 
-Contacts findContacts(const Mesh& mesh, const std::vector<SurfaceEdge>& edges, double distance, double size,
+Contacts findContacts(const Mesh& mesh, const std::vector<SurfaceEdge>& edges,
+                      std::span<const Crossing> crossings, double distance, double size,
                       const CancelToken& cancel) {
-  // Each edge once, however many polygons share it; `first` is the first of its uses.
-  std::vector<std::uint32_t> first;
-  std::vector<Box> boxes;
-  for (std::uint32_t k = 0; k < edges.size(); ++k) {
-    if (k > 0 && edges[k].a == edges[k - 1].a && edges[k].b == edges[k - 1].b) continue;
-    const glm::dvec3 &p = mesh.positions[edges[k].a], &q = mesh.positions[edges[k].b];
-    first.push_back(k);
-    boxes.push_back({glm::min(p, q), glm::max(p, q)});
-  }
-  // Whether the surface has the edge itself: then it is outline already.
-  const auto owns = [&](std::uint32_t surface, std::uint32_t k) {
-    for (std::uint32_t use = k;
-         use < edges.size() && edges[use].a == edges[k].a && edges[use].b == edges[k].b; ++use) {
-      if (edges[use].surface == surface) return true;
-    }
-    return false;
+  // Edges just above a surface tell its elements apart where there are several beside each other.
+  const double above = std::max(kJustAbove * size, distance);
+  const auto reachOf = [&](const Surface& s) {
+    return std::min(s.extent.x, s.extent.y) > kLarge * size ? above : distance;
   };
-  const BoxTree tree(std::move(boxes), cancel);
   Contacts out(mesh.surfaces.size());
-  for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
-    cancel.check();
-    const Surface& surface = mesh.surfaces[s];
-    // Edges just above it tell its elements apart where there are several beside each other.
-    const bool large = std::min(surface.extent.x, surface.extent.y) > kLarge * size;
-    const double reach = large ? std::max(kJustAbove * size, distance) : distance;
-    Box box{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
-    for (std::uint32_t t = surface.triangles.first; t < surface.triangles.end(); ++t) {
-      for (const std::uint32_t v : mesh.triangles[t].position) {
-        box.low = glm::min(box.low, mesh.positions[v] - reach);
-        box.high = glm::max(box.high, mesh.positions[v] + reach);
-      }
-    }
-    tree.overlapping(box, [&](std::uint32_t index) {
-      const SurfaceEdge& e = edges[first[index]];
-      const glm::dvec3 p = mesh.positions[e.a] - surface.origin, q = mesh.positions[e.b] - surface.origin;
-      const double height =
-          std::max(std::abs(glm::dot(p, surface.normal)), std::abs(glm::dot(q, surface.normal)));
-      if (height > distance && (height > reach || glm::distance(p, q) < size)) return;
-      if (owns(s, first[index])) return;
-      const ContactSegment segment{{glm::dot(p, surface.axis_u), glm::dot(p, surface.axis_v)},
-                                   {glm::dot(q, surface.axis_u), glm::dot(q, surface.axis_v)}};
-      const auto outside = [&](int axis) {
-        return std::max(segment.a[axis], segment.b[axis]) <= distance ||
-               std::min(segment.a[axis], segment.b[axis]) >= surface.extent[axis] - distance;
-      };
-      if (!outside(0) && !outside(1)) out[s].push_back(segment);
-    });
-  }
-  addCrossings(mesh, distance, cancel, out);
+  const auto accepts = [&](double height, double length) { return height <= distance || length >= size; };
+  for (const Touch& touch : edgesNear(mesh, edges, distance, reachOf, accepts, cancel))
+    out[touch.surface].push_back(touch.line);
+  for (const Crossing& c : crossings) out[c.surface].push_back(c.line);
   return out;
 }
 

@@ -4,6 +4,7 @@
 // so cells are cut along it and nothing is interpolated across.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "base/cancel.h"
@@ -17,13 +18,32 @@ struct ContactSegment {
   glm::dvec2 a{0.0}, b{0.0};
 };
 
-/// Contact segments of each surface. `edges`: all edges of the scene's polygons, equal ones side by side;
-/// `distance` [m]: how near to the plane an edge lies in it, and how far beyond it on both sides what passes
-/// through it reaches. `size` [m]: edge of an element as far as it is known; long edges that come nearer than
-/// a quarter of it to a large surface's plane count as well.
+/// Where a surface passes through another one's plane, inside its outline.
+struct Crossing {
+  std::uint32_t surface = 0, by = 0;
+  ContactSegment line;  ///< in the chart of `surface`
+};
+
+/// `distance` [m]: how far beyond the plane on both sides what passes through it reaches.
+std::vector<Crossing> findCrossings(const Mesh& mesh, double distance, const CancelToken& cancel = {});
+
+/// An edge of other surfaces' polygons in a surface's plane and inside the rectangle of its outline.
+struct Touch {
+  std::uint32_t surface = 0;
+  std::uint32_t edge = 0;  ///< the first of its uses among all edges
+  ContactSegment line;     ///< in the chart of `surface`
+};
+
+/// `edges`: all edges of the scene's polygons, equal ones side by side; `distance` [m]: how near to the plane
+/// an edge lies in it.
+std::vector<Touch> findTouches(const Mesh& mesh, const std::vector<SurfaceEdge>& edges, double distance,
+                               const CancelToken& cancel = {});
+
+/// Contact segments of each surface, `crossings` among them. `size` [m]: edge of an element as far as it is
+/// known; long edges that come nearer than a quarter of it to a large surface's plane count as well.
 std::vector<std::vector<ContactSegment>> findContacts(const Mesh& mesh, const std::vector<SurfaceEdge>& edges,
-                                                      double distance, double size,
-                                                      const CancelToken& cancel = {});
+                                                      std::span<const Crossing> crossings, double distance,
+                                                      double size, const CancelToken& cancel = {});
 
 /// Cuts the convex polygons of one cell by the lines of those segments that pass through it, and marks every
 /// edge that lies on a segment as outline. `tolerance` [m].

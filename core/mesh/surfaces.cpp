@@ -56,7 +56,8 @@ class SurfaceMaker {
     }
     SurfaceTopology out{smoothPairs(), {}};
     for (const EdgeUse& e : edges_) {
-      if (surface_of_[e.polygon] != kNone) out.edges.push_back({e.low, e.high, surface_of_[e.polygon]});
+      if (surface_of_[e.polygon] != kNone)
+        out.edges.push_back({e.low, e.high, surface_of_[e.polygon], e.forward});
     }
     return out;
   }

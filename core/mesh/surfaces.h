@@ -13,6 +13,7 @@ namespace unshot {
 struct SurfaceEdge {
   std::uint32_t a = 0, b = 0;  ///< in Mesh::positions
   std::uint32_t surface = 0;
+  bool forward = false;  ///< counter-clockwise about the surface's normal the polygon runs from a to b
 };
 
 struct SurfaceTopology {

@@ -1,0 +1,24 @@
+// Which sides of surfaces light can reach: those that are in the same place (mesh/shells.h) as one that
+// emits.
+//
+// A side on which something stands may be inside of it in parts: it is lit if anything around it is.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/cancel.h"
+#include "mesh/contacts.h"
+#include "mesh/mesh.h"
+#include "mesh/surfaces.h"
+
+namespace unshot {
+
+/// Two flags for each of mesh.surfaces, front and back: whether light can reach that side. `edges`: all edges
+/// of the scene's polygons, equal ones side by side; `emits`: two for each surface. All true where nothing
+/// emits, or where it cannot be told.
+std::vector<char> findReach(const Mesh& mesh, const std::vector<SurfaceEdge>& edges,
+                            std::span<const Crossing> crossings, std::span<const char> emits,
+                            double weld_distance, const CancelToken& cancel = {});
+
+}  // namespace unshot
