@@ -112,7 +112,7 @@ class Residuals {
   std::vector<double> triangle_area_sum_, receiver_area_sum_;
   std::vector<double> triangle_light_sum_, receiver_light_sum_;
   std::optional<ElementPoints> element_points_;  // where receivers are elements
-  std::vector<char> counts_;  // one a side: whether errors on it count
+  std::vector<char> counts_;                     // one a side: whether errors on it count
   std::vector<Place> points_, elements_;
 };
 
