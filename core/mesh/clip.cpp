@@ -57,20 +57,24 @@ glm::dvec2 polygonCentroid(std::span<const PieceCorner> polygon) {
 }
 
 bool contains(std::span<const PieceCorner> polygon, const glm::dvec2& uv) {
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const glm::dvec2& a = polygon[k].uv;
-    const glm::dvec2& b = polygon[(k + 1) % polygon.size()].uv;
-    if (cross(b - a, uv - a) < 0) return false;
+  if (polygon.size() < 3) return false;
+  const PieceCorner* from = &polygon.back();
+  for (const PieceCorner& to : polygon) {
+    if (cross(to.uv - from->uv, uv - from->uv) < 0) return false;
+    from = &to;
   }
-  return polygon.size() >= 3;
+  return true;
 }
 
 double distanceOutside(std::span<const PieceCorner> polygon, const glm::dvec2& uv) {
   double most = -std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const glm::dvec2 edge = polygon[(k + 1) % polygon.size()].uv - polygon[k].uv;
+  if (polygon.empty()) return most;
+  const PieceCorner* from = &polygon.back();
+  for (const PieceCorner& to : polygon) {
+    const glm::dvec2 edge = to.uv - from->uv;
     const double length = glm::length(edge);
-    if (length > 0) most = std::max(most, cross(uv - polygon[k].uv, edge) / length);
+    if (length > 0) most = std::max(most, cross(uv - from->uv, edge) / length);
+    from = &to;
   }
   return most;
 }

@@ -347,12 +347,16 @@ void placeCentres(Mesh& mesh, const Surface& surface, const CancelToken& cancel)
 std::uint32_t elementAt(const Mesh& mesh, const Surface& s, const glm::dvec2& uv, double margin) {
   const Cell& cell = mesh.cells[cellAt(s, uv)];
   if (cell.element != kMixed) return cell.element;
+  // Most positions lie well inside a piece, and one edge shows of most pieces that they do not hold it.
+  for (std::uint32_t k = cell.pieces.first; k < cell.pieces.end(); ++k) {
+    const std::span<const PieceCorner> corners = mesh.cornersOf(mesh.pieces[k]);
+    if (contains(corners, uv) && distanceOutside(corners, uv) <= -margin) return mesh.pieces[k].element;
+  }
   std::uint32_t best = kNone, other = kNone;
   double least = INFINITY, least_other = INFINITY;
   for (std::uint32_t k = cell.pieces.first; k < cell.pieces.end(); ++k) {
     const std::uint32_t element = mesh.pieces[k].element;
     const double outside = distanceOutside(mesh.cornersOf(mesh.pieces[k]), uv);
-    if (outside <= -margin) return element;  // well inside
     if (outside < least) {
       if (element != best) {
         other = best;

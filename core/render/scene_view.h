@@ -8,14 +8,13 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "gl/objects.h"
 #include "render/camera.h"
 #include "render/display_modes.h"
 #include "render/reference_light.h"
+#include "render/scene_buffers.h"
 #include "render/targets.h"
-#include "render/uploads.h"
 #include "session/snapshot.h"
 
 namespace unshot {
@@ -45,22 +44,22 @@ struct Pieces {
   std::size_t first = 0, count = 0;
 };
 
-/// GPU copies of a mesh and of one state of its solve. All calls on the thread where the context is current.
+/// Draws one state of a solve. All calls on the thread where the context is current.
 /// State that is changed goes back to OpenGL's defaults; the framebuffer and viewport stay.
 class SceneView {
  public:
   explicit SceneView(gl::Context& context);
 
   /// Uploads the state; geometry only when the mesh is another than before, direct light only when its field
-  /// is another object than before. Values that are not finite are
-  /// drawn as 0. Throws Error kEnvironment where the mesh is too large for the driver.
+  /// is another object than before. Values that are not finite are drawn as 0. Throws Error kEnvironment
+  /// where the mesh is too large for the driver.
   void setSnapshot(const Snapshot& snapshot);
   /// The same in parts: begins it, giving up what is not yet done of the snapshot before. Nothing may be
   /// drawn until upload() has sent uploadBytes().
-  void beginSnapshot(const std::shared_ptr<const Snapshot>& snapshot);
+  void beginSnapshot(const std::shared_ptr<const Snapshot>& snapshot) { buffers_.begin(snapshot); }
   /// About so many more bytes.
-  void upload(std::size_t bytes);
-  std::size_t uploadBytes() const { return mesh_uploads_.bytes() + field_uploads_.bytes(); }
+  void upload(std::size_t bytes) { buffers_.upload(bytes); }
+  std::size_t uploadBytes() const { return buffers_.uploadBytes(); }
 
   /// Draws into `viewport` of the bound framebuffer, in one rendering, and returns the automatic exposure:
   /// the factor from linear values to about 1 for white, without exposure_ev.
@@ -87,45 +86,15 @@ class SceneView {
                const Viewport& viewport, int first_row = 0);
 
  private:
-  using SharedField = std::shared_ptr<const std::vector<glm::vec3>>;
-
-  void beginMesh(const std::shared_ptr<const Mesh>& mesh);
-  /// Where the light that is meant is, brought up to date.
-  struct LightBuffers {
-    const gl::Buffer& vertices;
-    const gl::Texture& elements;
-  };
-  LightBuffers lightOf(const LightChoice& choice);
-  void useReference(const ViewOptions& options);
-  /// The buffer with what this quantity shows besides the light; null where that is all.
-  const gl::Buffer* extraField(Quantity quantity) const;
-  void uploadEdges();
   void useDisplay(const gl::Program& program, const glm::mat4& matrix, const Camera& camera,
                   const ViewOptions& options, const gl::Texture& element_light) const;
   const LinearTarget& target(LinearTarget& kept, int width, int height);
 
   gl::Context& context_;
-  std::shared_ptr<const Mesh> mesh_;
-  Uploads mesh_uploads_, field_uploads_;
-  SharedField direct_field_, element_direct_field_, bounces_field_, residual_field_;  // as uploaded
-  Bounds bounds_;
-  glm::dvec3 sky_{0.0};
+  SceneBuffers buffers_;
   gl::Program display_program_, by_pixel_program_, resolve_program_;
-  gl::VertexArray vertex_array_, no_attributes_;
-  std::shared_ptr<const BounceLight> bounce_light_;         // of the snapshot
-  std::shared_ptr<const MeshField> bounce_field_;           // as uploaded
-  std::shared_ptr<const ReferenceLight> direct_reference_;  // where there is no other
-  std::shared_ptr<const ReferenceLight> reference_light_;   // as uploaded
-  gl::Buffer vertices_, irradiance_, direct_, ambient_, unshot_, bounces_, residual_, bounce_irradiance_,
-      reference_;
-  gl::Buffer triangles_, edges_;
-  gl::Buffer sides_, triangle_elements_, element_irradiance_, element_direct_, element_bounce_;
-  gl::Texture sides_texture_, triangle_elements_texture_, element_irradiance_texture_,
-      element_direct_texture_, element_bounce_texture_;
+  gl::VertexArray no_attributes_;
   LinearTarget samples_, small_;
-  GLsizei triangle_index_count_ = 0;
-  GLsizei edge_index_count_ = 0;
-  bool edges_uploaded_ = false;
 };
 
 }  // namespace unshot

@@ -7,11 +7,13 @@ namespace unshot {
 namespace {
 
 constexpr std::size_t kScratchBytes = 1 << 18;  // stays in the cache
-constexpr float kLargestValue = 1e36f;
-
-float finiteValue(float v) { return std::isfinite(v) ? std::clamp(v, -kLargestValue, kLargestValue) : 0.0f; }
+constexpr double kLargestValue = 1e36;
 
 }  // namespace
+
+float finiteValue(double v) {
+  return std::isfinite(v) ? static_cast<float>(std::clamp(v, -kLargestValue, kLargestValue)) : 0.0f;
+}
 
 glm::vec3 finiteValue(const glm::vec3& value) {
   return {finiteValue(value.x), finiteValue(value.y), finiteValue(value.z)};

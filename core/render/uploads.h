@@ -50,6 +50,7 @@ class Uploads {
 
 /// The value, or 0 where it is not finite; far inside the range of float, so that sums, interpolation and
 /// scaling stay finite.
+float finiteValue(double value);
 glm::vec3 finiteValue(const glm::vec3& value);
 
 /// Fields of a snapshot, whatever they hold: values that are not there or not finite are 0. `Value` is

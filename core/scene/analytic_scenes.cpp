@@ -47,6 +47,30 @@ Scene SceneBuilder::finish() {
   return std::move(scene_);
 }
 
+BoxMaterials allOf(std::uint32_t material) {
+  return {material, material, material, material, material, material};
+}
+
+void addBox(SceneBuilder& b, const BoxMaterials& m, const glm::dvec3& corner, const glm::dvec3& x,
+            const glm::dvec3& y, const glm::dvec3& z, bool inwards) {
+  const auto face = [&](std::uint32_t material, const glm::dvec3& at, const glm::dvec3& u,
+                        const glm::dvec3& v) {
+    if (material == kNone) return;
+    b.quad(material, at, inwards ? u : v, inwards ? v : u);  // u x v points into the box
+  };
+  face(m[0], corner, y, z);
+  face(m[1], corner + x, z, y);
+  face(m[2], corner, z, x);
+  face(m[3], corner + y, x, z);
+  face(m[4], corner, x, y);
+  face(m[5], corner + z, y, x);
+}
+
+void addBox(SceneBuilder& builder, const BoxMaterials& materials, const glm::dvec3& corner,
+            const glm::dvec3& edges, bool inwards) {
+  addBox(builder, materials, corner, {edges.x, 0, 0}, {0, edges.y, 0}, {0, 0, edges.z}, inwards);
+}
+
 Scene cubeScene(const std::array<Material, 6>& materials) {
   SceneBuilder b;
   for (const Material& m : materials) b.material(m.name, m.reflectance, m.emission);

@@ -24,6 +24,17 @@ class SceneBuilder {
   Scene scene_;
 };
 
+/// Materials of a box's faces: low and high along x, along y, along z. kNone: there is no such face.
+using BoxMaterials = std::array<std::uint32_t, 6>;
+BoxMaterials allOf(std::uint32_t material);
+
+/// A parallelepiped of corner + [0, 1] x + [0, 1] y + [0, 1] z (right-handed), fronts inwards or outwards.
+void addBox(SceneBuilder& builder, const BoxMaterials& materials, const glm::dvec3& corner,
+            const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z, bool inwards);
+/// The same along the axes.
+void addBox(SceneBuilder& builder, const BoxMaterials& materials, const glm::dvec3& corner,
+            const glm::dvec3& edges, bool inwards);
+
 /// Inside of the cube [0, 1]^3, fronts inwards. `materials`: floor y = 0, ceiling y = 1, walls z = 0, x = 1,
 /// z = 1, x = 0.
 Scene cubeScene(const std::array<Material, 6>& materials);

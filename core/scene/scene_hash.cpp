@@ -6,17 +6,9 @@ namespace unshot {
 
 std::uint64_t sceneHash(const Scene& scene) {
   ArchiveWriter archive;
-  archive.value(scene.frame_origin);
-  archive.array(scene.positions);
-  archive.array(scene.normals);
-  archive.array(scene.corners);
-  archive.array(scene.polygons);
-  archive.value(scene.smoothing_given);
-  for (const Material& material : scene.materials) {
-    archive.text(material.name);
-    archive.value(material.reflectance);
-    archive.value(material.emission);
-  }
+  archive.fields(scene.frame_origin, scene.positions, scene.normals, scene.corners, scene.polygons);
+  archive.fields(scene.smoothing_given);
+  for (const Material& m : scene.materials) archive.fields(m.name, m.reflectance, m.emission);
   return archive.checksum();
 }
 

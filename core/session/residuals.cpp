@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
-#include "base/random.h"
 #include "session/fields.h"
 #include "solver/counted.h"
 #include "solver/patch_solve.h"
@@ -31,26 +30,6 @@ constexpr double kInterval = 2.1;
 // How many places of its own a patch needs to outweigh what is known of its side, a side what is known of
 // all.
 constexpr double kBelief = 1;
-
-double fraction(double x) { return x - std::floor(x); }
-
-// Places follow each other by the golden ratio, so that any number of them is spread evenly.
-double evenly(std::uint64_t number, std::uint64_t seed) {
-  return fraction(static_cast<double>(number) * 0.6180339887498949 + unitInterval(mixBits(seed)));
-}
-
-std::uint32_t chooseBy(const std::vector<double>& sums, double u) {
-  const auto at = std::upper_bound(sums.begin(), sums.end(), u * sums.back());
-  return static_cast<std::uint32_t>(std::min<std::ptrdiff_t>(at - sums.begin(), std::ssize(sums) - 1));
-}
-
-// What k itself adds to running sums.
-double ownOf(const std::vector<double>& sums, std::size_t k) { return sums[k] - (k > 0 ? sums[k - 1] : 0); }
-
-glm::dvec3 barycentric(double u, double v) {
-  const double r = std::sqrt(u);
-  return {1 - r, r * (1 - v), r * v};
-}
 
 struct Ratio {
   double value = 0, error = 0;  // and its standard error
@@ -148,13 +127,13 @@ std::vector<glm::dvec3> patchMeans(const Residuals& residuals, const std::vector
 }
 
 // Squared nRMSE of what the residuals cause, at those that count. `residuals` has patch, of_look[2],
-// reflected, weight, counts; places[k].looks are those of residuals[k].
+// reflected, weight, counts, of places[k].
 //
 // With K the true operator, e = r + K e. M in its place leaves the error r' = (K - M) e, which is a residual
 // again: the looks say what K makes of an error that is known per patch.
-template <class Places, class Residuals>
-std::optional<Ratio> squaredError(const Places& places, const Residuals& residuals, const Mesh& mesh,
-                                  const RadiosityState& state, const PatchMatrix& matrix) {
+template <class Residuals>
+std::optional<Ratio> squaredError(const std::vector<ResidualPlace>& places, const Residuals& residuals,
+                                  const Mesh& mesh, const RadiosityState& state, const PatchMatrix& matrix) {
   const std::size_t n = state.patchCount(), count = residuals.size();
   std::vector<glm::dvec3> error[2];
   for (int look = 0; look < 2; ++look) {
@@ -191,139 +170,16 @@ std::optional<Ratio> squaredError(const Places& places, const Residuals& residua
 }  // namespace
 
 Residuals::Residuals(const Mesh& mesh, const Receivers& receivers, std::uint64_t seed)
-    : mesh_(mesh), receivers_(receivers), seed_(mixBits(seed ^ 0x7265736964756cull)), gatherer_(mesh) {
-  if (receivers.kind == ReceiverKind::kElements) element_points_.emplace(mesh);
+    : mesh_(mesh), receivers_(receivers), places_(mesh, receivers, seed) {
   std::vector<glm::dvec3> emission, reflectance;
   for (const Side& side : mesh.sides) {
     emission.push_back(side.emission);
     reflectance.push_back(side.reflectance);
   }
   counts_ = whereErrorsCount(emission, reflectance);
-  double sum = 0;
-  for (std::uint32_t t = 0; t < mesh.triangle_element.size(); ++t) {
-    const std::uint32_t* corner = &mesh.triangle_vertices[3 * t];
-    const glm::dvec3 p0(mesh.vertices[corner[0]].position);
-    const glm::dvec3 across = glm::cross(glm::dvec3(mesh.vertices[corner[1]].position) - p0,
-                                         glm::dvec3(mesh.vertices[corner[2]].position) - p0);
-    sum += glm::length(across) / 2;
-    triangle_area_sum_.push_back(sum);
-  }
-  sum = 0;
-  for (std::uint32_t v = 0; v < receivers.shownCount(); ++v) {
-    sum += areaOf(v);
-    receiver_area_sum_.push_back(sum);
-  }
-}
-
-// Of two layers those receivers count that stand in both: in between, what arrives is interpolated, and how
-// well is the mesh's affair.
-double Residuals::areaOf(std::uint32_t receiver) const {
-  if (!receivers_.layered()) return receivers_.area[receiver];
-  const SparseRows& rows = receivers_.from_base;
-  const std::uint32_t first = rows.start[receiver];
-  return rows.start[receiver + 1] == first + 1 ? receivers_.area[rows.index[first]] : 0.0;
 }
 
 bool Residuals::counts(std::uint32_t patch) const { return counts_[mesh_.patch_side[patch]] != 0; }
-
-// Every other place by light, where there is any.
-Residuals::Choice Residuals::choose(const std::vector<double>& area_sum, const std::vector<double>& light_sum,
-                                    std::uint64_t number, std::uint64_t seed) {
-  if (light_sum.back() <= 0) return {chooseBy(area_sum, evenly(number, seed)), 1};
-  const double u = evenly(number / 2, seed + number % 2);
-  const std::uint32_t k = chooseBy(number % 2 == 0 ? area_sum : light_sum, u);
-  const auto share = [k](const std::vector<double>& sum) { return ownOf(sum, k) / sum.back(); };
-  return {k, 2 / (1 + share(light_sum) / share(area_sum))};
-}
-
-// Reflected light over each triangle and at each receiver, where places may lie.
-void Residuals::findLight(const std::vector<glm::dvec3>& shown) {
-  triangle_light_sum_.clear();
-  receiver_light_sum_.clear();
-  const auto lightOf = [](const glm::dvec3& rho, const glm::dvec3& h) {
-    const glm::dvec3 b = rho * h;
-    const double sum = b.x + b.y + b.z;
-    return std::isfinite(sum * sum) ? sum * sum : 0.0;
-  };
-  const MeshField h = makeField(mesh_, receivers_, shown);
-  double sum = 0;
-  for (std::size_t t = 0; t < triangle_area_sum_.size(); ++t) {
-    const std::uint32_t* corner = &mesh_.triangle_vertices[3 * t];
-    const glm::dvec3 mean = (glm::dvec3(h.vertices[corner[0]]) + glm::dvec3(h.vertices[corner[1]]) +
-                             glm::dvec3(h.vertices[corner[2]])) /
-                            3.0;
-    const Side& side = mesh_.sides[mesh_.element_side[mesh_.triangle_element[t]]];
-    triangle_light_sum_.push_back(sum += ownOf(triangle_area_sum_, t) * lightOf(side.reflectance, mean));
-  }
-  sum = 0;
-  for (std::uint32_t v = 0; v < receiver_area_sum_.size(); ++v)
-    receiver_light_sum_.push_back(sum += ownOf(receiver_area_sum_, v) *
-                                         lightOf(receivers_.reflectance[v], receivers_.shown(v, shown)));
-}
-
-void Residuals::forgetPlaces() {
-  points_.clear();
-  elements_.clear();
-}
-
-void Residuals::add(std::size_t places, const std::vector<glm::dvec3>& shown) {
-  if (places == 0 || triangle_area_sum_.empty() || triangle_area_sum_.back() <= 0 ||
-      receiver_area_sum_.back() <= 0)
-    return;
-  findLight(shown);
-  for (std::size_t k = 0; k < places; ++k) {
-    const std::uint64_t number = points_.size();
-    addPoint(number);
-    addReceiver(number);
-  }
-}
-
-void Residuals::addPoint(std::uint64_t number) {
-  const std::uint64_t bits = mixBits(seed_ + 4 * number);
-  Place place;
-  const Choice choice = choose(triangle_area_sum_, triangle_light_sum_, number, seed_);
-  place.triangle = choice.index;
-  place.weight = choice.weight;
-  place.weights = barycentric(unitInterval(mixBits(bits)), unitInterval(mixBits(bits + 1)));
-  const std::uint32_t element = mesh_.triangle_element[place.triangle];
-  place.patch = mesh_.element_patch[element];
-  glm::dvec3 position(0.0);
-  for (int k = 0; k < 3; ++k)
-    position += place.weights[k] *
-                glm::dvec3(mesh_.vertices[mesh_.triangle_vertices[3 * place.triangle + k]].position);
-  const glm::dvec3& normal = mesh_.sides[mesh_.element_side[element]].normal;
-  for (std::uint64_t k = 0; k < 2; ++k)
-    place.looks[k] = gatherer_.look(position, normal, mixBits(bits + 2 + k));
-  points_.push_back(std::move(place));
-}
-
-void Residuals::addReceiver(std::uint64_t number) {
-  const std::uint64_t bits = mixBits(~seed_ + 4 * number);
-  Place place;
-  const Choice choice = choose(receiver_area_sum_, receiver_light_sum_, number, ~seed_);
-  place.receiver = choice.index;
-  place.weight = choice.weight;
-  place.patch = receivers_.shares[receivers_.start[place.receiver]].patch;
-  for (std::uint64_t k = 0; k < 2; ++k) {
-    if (receivers_.kind == ReceiverKind::kVertices) {
-      // From one of its views at random: what it receives is their mean.
-      const std::span<const ReceiverView> views = receivers_.viewsOf(place.receiver);
-      double left = unitInterval(mixBits(bits + 20 + k));
-      std::size_t chosen = 0;
-      while (chosen + 1 < views.size() && left >= views[chosen].weight) left -= views[chosen++].weight;
-      place.looks[k] = gatherer_.look(views[chosen].position, views[chosen].normal, mixBits(bits + 2 + k));
-      continue;
-    }
-    // Each look from a place of its own in the element: its H is a mean.
-    if (element_points_->empty(place.receiver)) return;
-    std::uint64_t state = mixBits(bits + 10 * k);
-    const glm::dvec3 position =
-        element_points_->at(place.receiver, [&] { return unitInterval(state = mixBits(state)); });
-    place.looks[k] =
-        gatherer_.look(position, mesh_.sides[mesh_.element_side[place.receiver]].normal, mixBits(state));
-  }
-  elements_.push_back(std::move(place));
-}
 
 // H of a gather: what lights send of their emission, and what elements and the sky send besides.
 glm::dvec3 Residuals::irradianceOf(const Gather& gather, const Sent& sent) {
@@ -366,7 +222,7 @@ std::vector<Residuals::Residual> Residuals::pointResiduals(const RadiosityState&
     if (!with_unshot) sent.light[e] -= state.unshot()[q] - state.emissionLeft(q);
   }
   std::vector<Residual> out;
-  for (const Place& place : points_) {
+  for (const ResidualPlace& place : places_.points()) {
     glm::dvec3 shown(0.0);
     for (int k = 0; k < 3; ++k)
       shown += place.weights[k] * glm::dvec3(h.vertices[mesh_.triangle_vertices[3 * place.triangle + k]]);
@@ -385,13 +241,13 @@ std::vector<Residuals::Residual> Residuals::receiverResiduals(const RadiositySta
     sent.light[e] = state.shot()[q] - (state.emission()[q] - state.emissionLeft(q));
   }
   std::vector<Residual> out;
-  for (const Place& place : elements_)
+  for (const ResidualPlace& place : places_.receivers())
     out.push_back(residualOf(place, state.reflectance()[place.patch], sent,
                              receivers_.shown(place.receiver, state.irradiance())));
   return out;
 }
 
-Residuals::Residual Residuals::residualOf(const Place& place, const glm::dvec3& rho, const Sent& sent,
+Residuals::Residual Residuals::residualOf(const ResidualPlace& place, const glm::dvec3& rho, const Sent& sent,
                                           const glm::dvec3& shown) const {
   return {place.patch,
           {rho * (irradianceOf(place.looks[0], sent) - shown),
@@ -404,20 +260,20 @@ Residuals::Residual Residuals::residualOf(const Place& place, const glm::dvec3& 
 ErrorEstimates Residuals::estimate(const RadiosityState& state, const PatchMatrix& matrix,
                                    const std::vector<glm::dvec3>& shown, bool with_total) const {
   ErrorEstimates out;
-  if (points_.empty() || elements_.empty()) return out;
-  const auto squared = [&](const std::vector<Place>& places, const std::vector<Residual>& residuals) {
+  const std::vector<ResidualPlace>&points = places_.points(), &receivers = places_.receivers();
+  if (points.empty() || receivers.empty()) return out;
+  const auto squared = [&](const std::vector<ResidualPlace>& places, const std::vector<Residual>& residuals) {
     return squaredError(places, residuals, mesh_, state, matrix);
   };
-  const std::optional<Ratio> both = squared(points_, pointResiduals(state, shown, false));
-  const std::optional<Ratio> factors = squared(elements_, receiverResiduals(state));
-  out.both = estimateOf(both, points_.size());
-  out.form_factor = estimateOf(factors, elements_.size());
+  const std::optional<Ratio> both = squared(points, pointResiduals(state, shown, false));
+  const std::optional<Ratio> factors = squared(receivers, receiverResiduals(state));
+  out.both = estimateOf(both, points.size());
+  out.form_factor = estimateOf(factors, receivers.size());
   if (both && factors)
     out.discretisation = estimateOf(Ratio{std::max(both->value, 0.0) - std::max(factors->value, 0.0),
                                           std::hypot(both->error, factors->error)},
-                                    points_.size());
-  if (with_total)
-    out.total = estimateOf(squared(points_, pointResiduals(state, shown, true)), points_.size());
+                                    points.size());
+  if (with_total) out.total = estimateOf(squared(points, pointResiduals(state, shown, true)), points.size());
   return out;
 }
 

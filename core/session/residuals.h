@@ -16,12 +16,11 @@
 #pragma once
 
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "formfactor/receivers.h"
-#include "mesh/element_points.h"
 #include "session/gather.h"
+#include "session/residual_places.h"
 #include "solver/patch_matrix.h"
 #include "solver/state.h"
 
@@ -46,14 +45,10 @@ class Residuals {
   /// All outlive the residuals.
   Residuals(const Mesh& mesh, const Receivers& receivers, std::uint64_t seed);
 
-  /// Takes `places` more points and as many receivers; a place costs some 700 rays. Half of them are spread
-  /// evenly over the area, half by the square of the light that is reflected there, of which `shown` is H as
-  /// it is shown (one per receiver [W/m^2]): a few bright places can hold most of an error. Surfaces that
-  /// emit have places too, for what goes on from there.
-  void add(std::size_t places, const std::vector<glm::dvec3>& shown);
-  std::size_t places() const { return points_.size(); }
-  /// Those that follow are chosen by the light as it is then.
-  void forgetPlaces();
+  /// As ResidualPlaces::add and ::forget.
+  void add(std::size_t places, const std::vector<glm::dvec3>& shown) { places_.add(places, shown); }
+  std::size_t places() const { return places_.points().size(); }
+  void forgetPlaces() { places_.forget(); }
 
   /// Of the present state. `shown`: H as it is shown, one per receiver [W/m^2]. `with_total`: where the
   /// matrix lacks little. Costs up to 170 products with the matrix.
@@ -64,14 +59,6 @@ class Residuals {
   std::vector<double> patchResiduals(const RadiosityState& state, const std::vector<glm::dvec3>& shown) const;
 
  private:
-  struct Place {
-    std::uint32_t patch = 0;
-    std::uint32_t triangle = 0;  // display triangle, of points
-    glm::dvec3 weights{0.0};     // barycentric in it
-    std::uint32_t receiver = 0;  // of receivers
-    double weight = 1;           // density of even places over that of these
-    Gather looks[2];
-  };
   struct Residual {
     std::uint32_t patch;
     glm::dvec3 of_look[2];  // r [W/m^2]
@@ -84,36 +71,19 @@ class Residuals {
     std::vector<glm::dvec3> light;     // besides emission, one per element [W/m^2]
     glm::dvec3 sky{0.0};               // [W/m^2]
   };
-  struct Choice {
-    std::uint32_t index;
-    double weight;
-  };
-  static Choice choose(const std::vector<double>& area_sum, const std::vector<double>& light_sum,
-                       std::uint64_t number, std::uint64_t seed);
-  void findLight(const std::vector<glm::dvec3>& shown);
-  void addPoint(std::uint64_t number);
-  void addReceiver(std::uint64_t number);
   std::vector<Residual> pointResiduals(const RadiosityState& state, const std::vector<glm::dvec3>& shown,
                                        bool with_unshot) const;
   std::vector<Residual> receiverResiduals(const RadiosityState& state) const;
-  Residual residualOf(const Place& place, const glm::dvec3& rho, const Sent& sent,
+  Residual residualOf(const ResidualPlace& place, const glm::dvec3& rho, const Sent& sent,
                       const glm::dvec3& shown) const;
   static glm::dvec3 irradianceOf(const Gather& gather, const Sent& sent);
   void setSources(const RadiosityState& state, bool with_unshot, Sent& sent) const;
   bool counts(std::uint32_t patch) const;
-  double areaOf(std::uint32_t receiver) const;
 
   const Mesh& mesh_;
   const Receivers& receivers_;
-  std::uint64_t seed_;
-  Gatherer gatherer_;
-  // Running sums over triangles and receivers: of the area where places may lie, and of the square of the
-  // light there.
-  std::vector<double> triangle_area_sum_, receiver_area_sum_;
-  std::vector<double> triangle_light_sum_, receiver_light_sum_;
-  std::optional<ElementPoints> element_points_;  // where receivers are elements
-  std::vector<char> counts_;                     // one a side: whether errors on it count
-  std::vector<Place> points_, elements_;
+  ResidualPlaces places_;
+  std::vector<char> counts_;  // one a side: whether errors on it count
 };
 
 }  // namespace unshot

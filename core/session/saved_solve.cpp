@@ -13,68 +13,28 @@ constexpr std::string_view kKind = "unshot solve";
 // To be raised when the file changes, or what form-factor methods and mesh mean by the same options.
 constexpr std::uint32_t kVersion = 1;
 
-template <class Archive, class Decisions>
-void transferPlan(Archive& a, Decisions& plan) {
-  std::uint64_t count = plan.size();
-  a.value(count);
-  if constexpr (!std::is_const_v<Decisions>) plan.resize(count);
-  for (auto& decision : plan) {
-    a.text(decision.what);
-    a.text(decision.why);
-    a.text(decision.saving);
-  }
-}
+// What the file holds, for writing (constant values) and for reading.
 
 template <class Archive, class Values>
 void transferValues(Archive& a, Values& v) {
-  a.array(v.shot);
-  a.array(v.unshot);
-  a.array(v.emission_left);
-  a.array(v.irradiance);
-  a.array(v.direct);
-  a.value(v.escaped_power);
-  a.value(v.defect_power);
-  a.value(v.emission_shots);
+  a.fields(v.shot, v.unshot, v.emission_left, v.irradiance, v.direct);
+  a.fields(v.escaped_power, v.defect_power, v.emission_shots);
 }
 
 // All but mesh and columns, which need no copy when they are written.
 template <class Archive, class Saved>
 void transferHead(Archive& a, Saved& s) {
-  a.value(s.scene_hash);
-  a.text(s.form_factors);
-  a.value(s.emit_front_only);
-  a.value(s.sky);
-  a.value(s.seed);
-  a.value(s.hemicube_resolution);
-  a.value(s.hemicube_drawing);
-  a.text(s.mode);
-  a.value(s.error);
-  transferPlan(a, s.plan);
-  a.array(s.quality);
-  a.value(s.drafts_allowed);
-  a.array(s.closure.scale);
-  a.array(s.closure.exact);
-  a.value(s.closure_pending);
-  a.value(s.seconds);
-  a.value(s.cpu_seconds);
-  a.value(s.mesh_seconds);
-  a.value(s.plan_seconds);
-  a.value(s.shots);
-  a.value(s.rows);
-  a.value(s.drawn);
-  a.array(s.history);
-  a.value(s.state);
-  a.text(s.stopped_by);
+  a.fields(s.scene_hash, s.form_factors, s.emit_front_only, s.sky, s.seed);
+  a.fields(s.hemicube_resolution, s.hemicube_drawing, s.mode, s.error);
+  a.list(s.plan, [&](auto& decision) { a.fields(decision.what, decision.why, decision.saving); });
+  a.fields(s.quality, s.drafts_allowed, s.closure.scale, s.closure.exact, s.closure_pending);
+  a.fields(s.seconds, s.cpu_seconds, s.mesh_seconds, s.plan_seconds);
+  a.fields(s.shots, s.rows, s.drawn, s.history, s.state, s.stopped_by);
 }
 
 template <class Archive, class AnyColumn>
 void transferColumn(Archive& a, AnyColumn& c) {
-  a.array(c.receiver);
-  a.value(c.first);
-  a.array(c.k);
-  a.value(c.escape);
-  a.value(c.defect);
-  a.value(c.quality);
+  a.fields(c.receiver, c.first, c.k, c.escape, c.defect, c.quality);
 }
 
 }  // namespace
@@ -98,14 +58,11 @@ std::shared_ptr<SavedSolve> readSavedSolve(const std::filesystem::path& path) {
   transferHead(archive, *saved);
   saved->mesh = readMesh(archive);
   transferValues(archive, saved->values);
-  archive.array(saved->local_irradiance);
-  std::uint64_t count = 0;
-  archive.value(count);
-  for (std::uint64_t k = 0; k < count; ++k) {
-    saved->columns.emplace_back();
-    archive.value(saved->columns.back().first);
-    transferColumn(archive, saved->columns.back().second);
-  }
+  archive.fields(saved->local_irradiance);
+  archive.list(saved->columns, [&](auto& column) {
+    archive.fields(column.first);
+    transferColumn(archive, column.second);
+  });
   return saved;
 }
 
@@ -146,12 +103,12 @@ void Solve::save(const std::filesystem::path& path) const {
     transferHead(archive, std::as_const(head));
     writeMesh(archive, *s.mesh);
     transferValues(archive, s.state->values());
-    archive.array(s.local_pass ? s.local_pass->irradiance() : std::vector<glm::dvec3>());
-    archive.value(std::uint64_t{transport.keptColumns()});
+    archive.fields(s.local_pass ? s.local_pass->irradiance() : std::vector<glm::dvec3>());
+    archive.fields(std::uint64_t{transport.keptColumns()});
     for (std::uint32_t q = 0; q < transport.patchCount(); ++q) {
       const Column* const column = transport.kept(q);
       if (!column) continue;
-      archive.value(q);
+      archive.fields(q);
       transferColumn(archive, *column);
     }
     archive.finish();

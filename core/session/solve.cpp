@@ -8,7 +8,6 @@
 #include "formfactor/sky.h"
 #include "gl/context.h"
 #include "scene/scene_hash.h"
-#include "session/fields.h"
 #include "session/plan.h"
 #include "session/saved_solve.h"
 #include "session/solve_impl.h"
@@ -155,14 +154,6 @@ void Solve::Impl::chooseMode(const std::string& key) {
   mode.reset();
   mode_key = chosen;
   options.mode = key;
-}
-
-// H with what the local pass adds, one per receiver.
-std::vector<glm::dvec3> Solve::Impl::shownIrradiance() const {
-  std::vector<glm::dvec3> out = state->irradiance();
-  if (!local_pass || local_pass->irradiance().empty()) return out;
-  for (std::size_t v = 0; v < out.size(); ++v) out[v] += local_pass->irradiance()[v];
-  return out;
 }
 
 void Solve::Impl::wakeClocks() {
@@ -364,8 +355,6 @@ const ErrorEstimates& Solve::estimate(std::size_t more_places) {
   return s.budget->estimates();
 }
 
-bool Solve::hasBouncesToWorkOut(bool compute) const { return impl_->bounces_of_light->hasWork(compute); }
-
 bool Solve::workOutBounces(bool compute) {
   Impl& s = *impl_;
   const double cpu_began = cpuSeconds();
@@ -379,82 +368,12 @@ bool Solve::workOutBounces(bool compute) {
   return news;
 }
 
-std::size_t Solve::places() const { return impl_->budget->places(); }
-
 void Solve::forgetPlaces() { impl_->budget->forgetPlaces(); }
 
-double Solve::errorSeconds() const { return impl_->budget->seconds(); }
-
-const ErrorBounds& Solve::bounds() const { return impl_->budget->bounds(); }
-
-const ErrorEstimates& Solve::estimates() const { return impl_->budget->estimates(); }
-
 void Solve::rest() { impl_->resting = true; }
-
-double Solve::solverTarget() const { return impl_->target(); }
-
-SolveState Solve::state() const { return impl_->progress_state; }
 
 void Solve::interrupt() {
   if (impl_->progress_state == SolveState::kRunning) impl_->stop(SolveState::kInterrupted, "interrupted");
 }
-
-Snapshot Solve::snapshot() const {
-  const Impl& s = *impl_;
-  Snapshot out = makeFields(s.mesh, s.transport->receivers(), s.shownIrradiance(), *s.state, *s.ambient);
-  out.sky = s.sky;
-  out.measures = s.measures;
-  impl_->shared.addTo(out, *s.transport, *s.state, s.budget->bounds());
-  out.bounce_light = s.bounces_of_light->light();
-  if (!out.bounce_light && s.mode) {
-    std::vector<glm::dvec3> powers = s.mode->bouncePowers();
-    if (powers.size() > 1) out.bounce_light = std::make_shared<const BounceLight>(BounceLight{powers, {}});
-  }
-  out.bounce_wait = s.bounces_of_light->wait();
-  return out;
-}
-
-const Measures& Solve::measures() const { return impl_->measures; }
-
-double Solve::progress() const {
-  const Impl& s = *impl_;
-  if (s.progress_state == SolveState::kConverged) return 1;
-  if (!std::isfinite(s.measures.unshot_fraction)) return 0;
-  // Until there is a bound, what is unshot says how far it is.
-  const double bound = s.measures.solverBound(), left = bound < kNoBound ? bound : s.measures.unshot_fraction;
-  const double reached = std::log(std::max(left, 1e-300)) / std::log(s.target());
-  return std::clamp(reached, 0.0, 0.999);
-}
-
-EnergyBalance Solve::energy() const { return energyOf(*impl_->transport, *impl_->state); }
-
-std::vector<glm::dvec3> Solve::patchRadiosity() const {
-  std::vector<glm::dvec3> out = impl_->state->shot();
-  for (std::size_t q = 0; q < out.size(); ++q) out[q] += impl_->state->unshot()[q];
-  return out;
-}
-
-const glm::dvec3& Solve::sky() const { return impl_->sky; }
-const SolveOptions& Solve::options() const { return impl_->options; }
-const Scene& Solve::scene() const { return impl_->scene; }
-const Mesh& Solve::mesh() const { return *impl_->mesh; }
-const std::string& Solve::modeKey() const { return impl_->mode_key; }
-const std::string& Solve::formFactorsKey() const { return impl_->form_factors_key; }
-const std::vector<PlanDecision>& Solve::plan() const { return impl_->plan; }
-const Diagnostics& Solve::diagnostics() const { return impl_->diagnostics; }
-const std::vector<HistoryEntry>& Solve::history() const { return impl_->history; }
-const PhaseSeconds& Solve::seconds() const { return impl_->seconds; }
-std::size_t Solve::keptBytes() const { return impl_->transport->keptBytes(); }
-
-std::size_t Solve::workingBytes() const {
-  const RadiosityState& state = *impl_->state;
-  // Per patch E, rho, S, U, E left and A; per receiver H and H_d.
-  return state.patchCount() * (5 * sizeof(glm::dvec3) + sizeof(double)) +
-         2 * state.irradiance().size() * sizeof(glm::dvec3) + (impl_->mode ? impl_->mode->bytes() : 0);
-}
-
-std::uint64_t Solve::drawn() const { return impl_->drawn_before + impl_->transport->drawn(); }
-const std::string& Solve::stoppedBy() const { return impl_->stopped_by; }
-const std::optional<Error>& Solve::failure() const { return impl_->failure; }
 
 }  // namespace unshot

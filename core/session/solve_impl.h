@@ -1,7 +1,9 @@
-// What a solve holds, for its own files alone: solve.cpp, which sets it up and takes its steps, and
-// solve_end.cpp, which says when and why it ends;
-// row_closing.cpp, which closes its rows;
-// and saved_solve.cpp, which writes it into a file and takes it up again.
+// What a solve holds, for its own files alone:
+// - solve.cpp sets it up, takes its steps and changes what it is asked for;
+// - solve_queries.cpp answers what can be asked of it;
+// - solve_end.cpp says when and why it ends;
+// - row_closing.cpp closes its rows;
+// - saved_solve.cpp writes it into a file and takes it up again.
 #pragma once
 
 #include <memory>

@@ -25,27 +25,9 @@ BoxMaterials glowingBox(SceneBuilder& b) {
   return out;
 }
 
-BoxMaterials allOf(std::uint32_t material) {
-  return {material, material, material, material, material, material};
-}
-
 void addUnitRoom(SceneBuilder& b) { addBox(b, glowingBox(b), kOrigin, kX, kY, kZ, true); }
 
 }  // namespace
-
-void addBox(SceneBuilder& b, const BoxMaterials& m, const glm::dvec3& corner, const glm::dvec3& x,
-            const glm::dvec3& y, const glm::dvec3& z, bool inwards) {
-  const auto face = [&](std::uint32_t material, const glm::dvec3& at, const glm::dvec3& u,
-                        const glm::dvec3& v) {
-    b.quad(material, at, inwards ? u : v, inwards ? v : u);  // u x v points into the box
-  };
-  face(m[0], corner, y, z);
-  face(m[1], corner + x, z, y);
-  face(m[2], corner, z, x);
-  face(m[3], corner + y, x, z);
-  face(m[4], corner, x, y);
-  face(m[5], corner + z, y, x);
-}
 
 Scene litCube(const glm::dvec3& reflectance, const glm::dvec3& emission) {
   std::array<Material, 6> materials;

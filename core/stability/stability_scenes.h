@@ -5,7 +5,6 @@
 // box is convex and everything else inside it, so that every side that light can reach sees closed space.
 #pragma once
 
-#include <array>
 #include <glm/vec3.hpp>
 
 #include "scene/analytic_scenes.h"
@@ -14,13 +13,6 @@ namespace unshot {
 
 /// b of the manufactured scenes [W/m^2]: not the same in any two channels.
 inline constexpr glm::dvec3 kManufactured{1.0, 2.0, 0.5};
-
-/// Six materials of a box: low and high face along x, along y, along z.
-using BoxMaterials = std::array<std::uint32_t, 6>;
-
-/// A parallelepiped of corner + [0, 1] x + [0, 1] y + [0, 1] z (right-handed), fronts inwards or outwards.
-void addBox(SceneBuilder& builder, const BoxMaterials& materials, const glm::dvec3& corner,
-            const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z, bool inwards);
 
 /// The cube [0, 1]^3 with reflectances and emissions per channel; the face y = 0 alone emits.
 Scene litCube(const glm::dvec3& reflectance, const glm::dvec3& emission);

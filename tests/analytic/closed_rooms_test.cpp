@@ -15,16 +15,6 @@ namespace {
 
 using namespace testing_support;
 
-void addBox(SceneBuilder& b, std::uint32_t material, const glm::dvec3& at, const glm::dvec3& edges) {
-  const glm::dvec3 x(edges.x, 0, 0), y(0, edges.y, 0), z(0, 0, edges.z);
-  b.quad(material, at, x, z);
-  b.quad(material, at + y, z, x);
-  b.quad(material, at, y, x);
-  b.quad(material, at + z, x, y);
-  b.quad(material, at, z, y);
-  b.quad(material, at + x, y, z);
-}
-
 // A room with a box that hangs in it and one that stands on its floor, or on it with a bottom of its own.
 Scene furnishedRoom(double rho) {
   SceneBuilder b;
@@ -32,9 +22,9 @@ Scene furnishedRoom(double rho) {
   const auto white = b.material("white", glm::dvec3(rho), glm::dvec3(1 - rho)),
              grey =
                  b.material("grey", glm::dvec3(rho, rho / 2, rho), glm::dvec3(1 - rho, 1 - rho / 2, 1 - rho));
-  addBox(b, white, {0, 0, 0}, {1, 1, 1});
-  addBox(b, white, {0.6, 0.3, 0.1}, {0.2, 0.3, 0.6});
-  addBox(b, grey, {0.2, 0, 0.2}, {0.3, 0.5, 0.4});
+  addBox(b, allOf(white), {0, 0, 0}, {1, 1, 1}, true);
+  addBox(b, allOf(white), {0.6, 0.3, 0.1}, {0.2, 0.3, 0.6}, false);
+  addBox(b, allOf(grey), {0.2, 0, 0.2}, {0.3, 0.5, 0.4}, false);
   return b.finish();
 }
 

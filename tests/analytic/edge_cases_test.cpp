@@ -124,13 +124,7 @@ TEST(NarrowGap, AboveALampHasItsLight) {
   SceneBuilder b;
   const auto lamp = b.material("lamp", glm::dvec3(0.7), glm::dvec3(1.0)),
              wall = b.material("wall", glm::dvec3(0.7));
-  const glm::dvec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-  b.quad(wall, {0, 0, 0}, z, x);
-  b.quad(wall, {0, 1, 0}, x, z);
-  b.quad(wall, {0, 0, 0}, x, y);
-  b.quad(wall, {0, 0, 1}, y, x);
-  b.quad(wall, {0, 0, 0}, y, z);
-  b.quad(wall, {1, 0, 0}, z, y);
+  addBox(b, allOf(wall), {0, 0, 0}, {1, 1, 1}, true);
   b.quad(lamp, {0.3, 0.99, 0.3}, {0.4, 0, 0}, {0, 0, 0.4});
   const Scene scene = b.finish();
   ReferenceOptions tracing;
@@ -154,13 +148,8 @@ TEST(HugeLamp, LightsABoxThroughItsOpening) {
   SceneBuilder b;
   const auto wall = b.material("wall", glm::dvec3(0.5)),
              lamp = b.material("lamp", glm::dvec3(0.0), glm::dvec3(1.0));
-  const glm::dvec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-  b.quad(wall, {0, 0, 0}, z, x);
-  b.quad(wall, {0, 0, 0}, x, y);
-  b.quad(wall, {0, 0, 1}, y, x);
-  b.quad(wall, {0, 0, 0}, y, z);
-  b.quad(wall, {1, 0, 0}, z, y);
-  b.quad(lamp, {-50, 1.5, -50}, 100.0 * x, 100.0 * z);
+  addBox(b, {wall, wall, wall, kNone, wall, wall}, {0, 0, 0}, {1, 1, 1}, true);
+  b.quad(lamp, {-50, 1.5, -50}, {100, 0, 0}, {0, 0, 100});
   const Scene scene = b.finish();
   ReferenceOptions tracing;
   tracing.relative_error = 0.005;
@@ -168,9 +157,9 @@ TEST(HugeLamp, LightsABoxThroughItsOpening) {
   std::uint64_t state = 1;
   const auto draw = [&] { return unitInterval(state = mixBits(state)); };
   for (int k = 0; k < 30; ++k) {
-    tracing.places.push_back({{draw(), 0, draw()}, y});
-    tracing.places.push_back({{draw(), draw(), 0}, z});
-    tracing.places.push_back({{1, draw(), draw()}, -x});
+    tracing.places.push_back({{draw(), 0, draw()}, {0, 1, 0}});
+    tracing.places.push_back({{draw(), draw(), 0}, {0, 0, 1}});
+    tracing.places.push_back({{1, draw(), draw()}, {-1, 0, 0}});
   }
   const Truth truth = traceReference(scene, tracing).points;
   SolveOptions options;

@@ -87,11 +87,7 @@ Scene bySlantedFace() {
 Scene byBlock() {
   SceneBuilder b = roomWithLamp();
   const glm::dvec3 a(1.13, 0, 0.32), u(0.4, 0, 0.1), w(-0.1, 0, 0.4), up(0, 0.3, 0);
-  b.quad(0, a, up, u);
-  b.quad(0, a + u, up, w);
-  b.quad(0, a + u + w, up, -u);
-  b.quad(0, a + w, up, -w);
-  b.quad(0, a + up, w, u);
+  addBox(b, {0, 0, kNone, 0, 0, 0}, a, u, up, w, false);
   return b.finish();
 }
 

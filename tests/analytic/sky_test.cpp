@@ -29,12 +29,7 @@ SolveOptions underSky(std::string_view method, double error = 1e-4) {
 Scene openBox(double reflectance) {
   SceneBuilder b;
   const auto wall = b.material("wall", glm::dvec3(reflectance));
-  const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1), o(0.0);
-  b.quad(wall, o, z, x);
-  b.quad(wall, o, x, y);
-  b.quad(wall, o, y, z);
-  b.quad(wall, z, y, x);
-  b.quad(wall, x, z, y);
+  addBox(b, {wall, wall, wall, kNone, wall, wall}, {0, 0, 0}, {1, 1, 1}, true);
   return b.finish();
 }
 

@@ -73,12 +73,7 @@ TEST(Air, OfRoomsWithAWallBetweenIsNotJoined) {
 Scene dividedHall(double slant) {
   SceneBuilder b;
   const auto white = b.material("white", glm::dvec3(0.8));
-  b.quad(white, {0, 0, 0}, {0, 0, 1}, {3, 0, 0});
-  b.quad(white, {0, 1, 0}, {3, 0, 0}, {0, 0, 1});
-  b.quad(white, {0, 0, 0}, {3, 0, 0}, {0, 1, 0});
-  b.quad(white, {0, 0, 1}, {0, 1, 0}, {3, 0, 0});
-  b.quad(white, {0, 0, 0}, {0, 1, 0}, {0, 0, 1});
-  b.quad(white, {3, 0, 0}, {0, 0, 1}, {0, 1, 0});
+  addBox(b, allOf(white), {0, 0, 0}, {3, 1, 1}, true);
   b.quad(white, {1.3, 0, 0}, {0, 1, 0}, {slant, 0, 1});
   return b.finish();
 }

@@ -25,9 +25,7 @@ std::string bytesOf(const std::function<void(ArchiveWriter&)>& write) {
 
 std::string sample() {
   return bytesOf([](ArchiveWriter& archive) {
-    archive.value(1.5);
-    archive.text("a name");
-    archive.array(std::vector<std::uint32_t>{1, 2, 3});
+    archive.fields(1.5, std::string("a name"), std::vector<std::uint32_t>{1, 2, 3});
   });
 }
 
@@ -49,13 +47,32 @@ TEST(Archive, GivesBackWhatItTook) {
   double number = 0;
   std::string text;
   std::vector<std::uint32_t> items;
-  archive.value(number);
-  archive.text(text);
-  archive.array(items);
+  archive.fields(number, text, items);
   EXPECT_EQ(number, 1.5);
   EXPECT_EQ(text, "a name");
   EXPECT_EQ(items, (std::vector<std::uint32_t>{1, 2, 3}));
-  EXPECT_THROW(archive.value(number), Error);  // nothing is left
+  EXPECT_THROW(archive.fields(number), Error);  // nothing is left
+}
+
+TEST(Archive, ListsItemsThatAreNoPlainValues) {
+  const TempFolder folder;
+  const auto transfer = [](auto& archive, auto& lists) {
+    archive.list(lists, [&](auto& list) { archive.fields(list); });
+  };
+  const std::vector<std::vector<int>> lists{{1, 2}, {}, {3}};
+  ArchiveReader archive(folder.write("f", bytesOf([&](ArchiveWriter& a) { transfer(a, lists); })),
+                        "test file", 3, "a test file");
+  std::vector<std::vector<int>> read;
+  transfer(archive, read);
+  EXPECT_EQ(read, lists);
+}
+
+TEST(Archive, RefusesAListOfMoreItemsThanTheFileHasRoomFor) {
+  const TempFolder folder;
+  const std::string bytes = bytesOf([](ArchiveWriter& a) { a.fields(std::uint64_t{1} << 60); });
+  ArchiveReader archive(folder.write("f", bytes), "test file", 3, "a test file");
+  std::vector<std::string> read;
+  EXPECT_THROW(archive.list(read, [&](std::string& text) { archive.fields(text); }), Error);
 }
 
 TEST(Archive, WritesLongArraysInPieces) {
@@ -68,14 +85,12 @@ TEST(Archive, WritesLongArraysInPieces) {
     ++pieces;
   });
   archive.head("test file", 3);
-  archive.array(many);
-  archive.array(many);
+  archive.fields(many, many);
   archive.finish();
   EXPECT_GT(pieces, 2u);
   ArchiveReader reader(folder.write("f", out), "test file", 3, "a test file");
   std::vector<double> first, second;
-  reader.array(first);
-  reader.array(second);
+  reader.fields(first, second);
   EXPECT_EQ(first, many);
   EXPECT_EQ(second, many);
 }
@@ -110,13 +125,13 @@ TEST(Archive, RefusesValuesOfAnotherSize) {
   const TempFolder folder;
   ArchiveReader archive(folder.write("f", sample()), "test file", 3, "a test file");
   float number = 0;
-  EXPECT_THROW(archive.value(number), Error);
+  EXPECT_THROW(archive.fields(number), Error);
 }
 
 TEST(Archive, ChecksumsTellContentsApart) {
   const auto sumOf = [](double x) {
     ArchiveWriter archive;
-    archive.value(x);
+    archive.fields(x);
     return archive.checksum();
   };
   EXPECT_EQ(sumOf(1), sumOf(1));

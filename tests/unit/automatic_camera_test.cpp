@@ -18,24 +18,14 @@ namespace {
 
 constexpr int kWidth = 96, kHeight = 72;
 
-// A closed box, fronts outwards.
-void box(SceneBuilder& b, std::uint32_t material, const glm::dvec3& low, const glm::dvec3& size) {
-  const glm::dvec3 x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z), high = low + size;
-  b.quad(material, low, y, x);
-  b.quad(material, low, z, y);
-  b.quad(material, low, x, z);
-  b.quad(material, high, -x, -y);
-  b.quad(material, high, -y, -z);
-  b.quad(material, high, -z, -x);
-}
-
 // A thick block of ground with houses on it, all closed solids.
 Scene town() {
   SceneBuilder b;
   const auto ground = b.material("ground", glm::dvec3(0.5)), house = b.material("house", glm::dvec3(0.7));
-  box(b, ground, {0, 0, 0}, {40, 12, 40});
+  addBox(b, allOf(ground), {0, 0, 0}, {40, 12, 40}, false);
   for (int i = 0; i < 5; ++i) {
-    for (int k = 0; k < 5; ++k) box(b, house, {2 + 8 * i, 12, 2 + 8 * k}, {3, 2 + (i * k) % 3, 3});
+    for (int k = 0; k < 5; ++k)
+      addBox(b, allOf(house), {2 + 8 * i, 12, 2 + 8 * k}, {3, 2 + (i * k) % 3, 3}, false);
   }
   return b.finish();
 }

@@ -28,12 +28,7 @@ Scene patchworkRoom() {
   b.quad(0, onFloor(0, 0), onFloor(0, 1.3), onFloor(0.7, 0));
   b.quad(1, onFloor(0.7, 0), onFloor(0, 0.45), onFloor(1.3, 0));
   b.quad(2, onFloor(0.7, 0.45), onFloor(0, 0.85), onFloor(1.3, 0));
-  const glm::dvec3 x(2, 0, 0), y(0, 1, 0), z(0, 0, 1.3), o(0.0);
-  b.quad(3, y, x, z);
-  b.quad(3, o, x, y);
-  b.quad(3, x, z, y);
-  b.quad(3, z, y, x);
-  b.quad(3, o, y, z);
+  addBox(b, {3, 3, kNone, 3, 3, 3}, {0, 0, 0}, {2, 1, 1.3}, true);
   return b.finish();
 }
 

@@ -14,23 +14,15 @@ namespace {
 
 using namespace testing_support;
 
-// A closed room of two colours with a block in it and a light below the ceiling.
+// A closed room of two colours with three faces of a block in it and a light below the ceiling.
 Scene room(double reflectance = 0.7) {
   SceneBuilder b;
   const auto white = b.material("white", glm::dvec3(reflectance)),
              red = b.material("red", reflectance * glm::dvec3(1, 0.2, 0.2)),
              light = b.material("light", glm::dvec3(0.3), {5, 4, 3});
-  const glm::dvec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-  b.quad(white, {0, 0, 0}, z, x);
-  b.quad(white, {0, 1, 0}, x, z);
-  b.quad(red, {0, 0, 0}, x, y);
-  b.quad(white, {0, 0, 1}, y, x);
-  b.quad(red, {0, 0, 0}, y, z);
-  b.quad(white, {1, 0, 0}, z, y);
-  b.quad(white, {0.2, 0.4, 0.2}, 0.3 * z, 0.3 * x);
-  b.quad(white, {0.2, 0, 0.2}, 0.4 * y, 0.3 * x);
-  b.quad(white, {0.2, 0, 0.2}, 0.3 * z, 0.4 * y);
-  b.quad(light, {0.6, 0.9, 0.6}, 0.2 * x, 0.2 * z);
+  addBox(b, {red, white, white, white, red, white}, {0, 0, 0}, {1, 1, 1}, true);
+  addBox(b, {white, kNone, kNone, white, white, kNone}, {0.2, 0, 0.2}, {0.3, 0.4, 0.3}, false);
+  b.quad(light, {0.6, 0.9, 0.6}, {0.2, 0, 0}, {0, 0, 0.2});
   return b.finish();
 }
 

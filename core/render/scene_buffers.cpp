@@ -1,0 +1,255 @@
+#include "render/scene_buffers.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <glm/vec4.hpp>
+
+#include "base/error.h"
+#include "render/element_edges.h"
+
+namespace unshot {
+namespace {
+
+struct GpuVertex {
+  glm::vec3 position, normal;
+  std::uint32_t side;
+};
+
+glm::vec4 finiteTexel(const glm::dvec3& v) {
+  return {finiteValue(v.x), finiteValue(v.y), finiteValue(v.z), 0.0f};
+}
+
+void allocate(const gl::Functions& fn, const gl::Buffer& buffer, std::size_t bytes, GLenum usage) {
+  // The binding point says nothing about the use; this one disturbs no vertex array.
+  fn.BindBuffer(GL_COPY_WRITE_BUFFER, buffer.id());
+  fn.BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, usage);
+  fn.BindBuffer(GL_COPY_WRITE_BUFFER, 0);
+}
+
+// Room for values that do not change, and their way there.
+template <class T>
+void sendAll(Uploads& uploads, const gl::Buffer& buffer, std::shared_ptr<const std::vector<T>> values) {
+  allocate(buffer.fn(), buffer, values->size() * sizeof(T), GL_STATIC_DRAW);
+  const std::size_t count = values->size();
+  uploads.add<T>(buffer, count, [values = std::move(values)](std::size_t first, std::size_t n, T* out) {
+    std::copy_n(values->data() + first, n, out);
+  });
+}
+
+// A field of `count` values at once: what is shown on demand.
+template <class Value>
+void send(const gl::Buffer& buffer, std::shared_ptr<const std::vector<glm::vec3>> field, std::size_t count) {
+  allocate(buffer.fn(), buffer, std::max<std::size_t>(count, 1) * sizeof(Value), GL_DYNAMIC_DRAW);
+  Uploads uploads;
+  uploads.add<Value>(buffer, count, finiteValues<Value>(std::move(field)));
+  uploads.some(uploads.bytes());
+}
+
+void attribute(const gl::Functions& fn, GLuint location, const gl::Buffer& buffer, std::size_t stride,
+               std::size_t offset) {
+  fn.BindBuffer(GL_ARRAY_BUFFER, buffer.id());
+  fn.EnableVertexAttribArray(location);
+  fn.VertexAttribPointer(location, 3, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
+                         reinterpret_cast<const void*>(offset));
+}
+
+void attachTexels(const gl::Functions& fn, const gl::Texture& texture, GLenum format,
+                  const gl::Buffer& buffer) {
+  fn.BindTexture(GL_TEXTURE_BUFFER, texture.id());
+  fn.TexBuffer(GL_TEXTURE_BUFFER, format, buffer.id());
+  fn.BindTexture(GL_TEXTURE_BUFFER, 0);
+}
+
+void checkTexels(const gl::Functions& fn, std::size_t texels) {
+  GLint largest = 0;
+  fn.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &largest);
+  if (texels <= static_cast<std::size_t>(largest)) return;
+  throw Error(ErrorKind::kEnvironment,
+              "the mesh has " + std::to_string(texels) +
+                  " triangles or elements; this OpenGL driver draws at most " + std::to_string(largest),
+              {}, "fewer elements (--elements), or another provider (--gl)");
+}
+
+}  // namespace
+
+SceneBuffers::SceneBuffers(gl::Context& context)
+    : context_(context),
+      vertex_array_(context),
+      vertices_(context),
+      irradiance_(context),
+      direct_(context),
+      ambient_(context),
+      unshot_(context),
+      bounces_(context),
+      residual_(context),
+      bounce_irradiance_(context),
+      reference_(context),
+      triangles_(context),
+      edges_(context),
+      sides_(context),
+      triangle_elements_(context),
+      element_irradiance_(context),
+      element_direct_(context),
+      element_bounce_(context),
+      sides_texture_(context),
+      triangle_elements_texture_(context),
+      element_irradiance_texture_(context),
+      element_direct_texture_(context),
+      element_bounce_texture_(context) {}
+
+void SceneBuffers::begin(const std::shared_ptr<const Snapshot>& snapshot) {
+  // Where fields were given up half way, it is not known what is there.
+  bool all = !field_uploads_.done();
+  field_uploads_.clear();
+  if (snapshot->mesh != mesh_) {
+    beginMesh(snapshot->mesh);
+    bounce_field_.reset();
+    reference_light_.reset();
+    all = true;
+  }
+  const auto own = [&](const std::vector<glm::vec3>& field) {
+    return std::shared_ptr<const std::vector<glm::vec3>>(snapshot, &field);
+  };
+  const std::size_t vertices = mesh_->vertices.size(), elements = mesh_->element_count;
+  field_uploads_.add<glm::vec3>(irradiance_, vertices, finiteValues<glm::vec3>(own(snapshot->irradiance)));
+  field_uploads_.add<glm::vec3>(ambient_, vertices, finiteValues<glm::vec3>(own(snapshot->ambient)));
+  field_uploads_.add<glm::vec3>(unshot_, vertices, finiteValues<glm::vec3>(own(snapshot->unshot)));
+  field_uploads_.add<glm::vec4>(element_irradiance_, elements,
+                                finiteValues<glm::vec4>(own(snapshot->element_irradiance)));
+  const auto shared = [&]<class Value>(const gl::Buffer& buffer, std::size_t count, SharedField& uploaded,
+                                       const SharedField& field, Value) {
+    if (all || uploaded != field) field_uploads_.add<Value>(buffer, count, finiteValues<Value>(field));
+    uploaded = field;
+  };
+  if (all || direct_field_ != snapshot->direct) direct_reference_.reset();
+  bounce_light_ = snapshot->bounce_light;
+  sky_ = snapshot->sky;
+  shared(direct_, vertices, direct_field_, snapshot->direct, glm::vec3());
+  shared(element_direct_, elements, element_direct_field_, snapshot->element_direct, glm::vec4());
+  shared(bounces_, vertices, bounces_field_, snapshot->bounces, glm::vec3());
+  shared(residual_, vertices, residual_field_, snapshot->residual, glm::vec3());
+}
+
+void SceneBuffers::upload(std::size_t bytes) {
+  const std::size_t mesh_bytes = std::min(bytes, mesh_uploads_.bytes());
+  mesh_uploads_.some(mesh_bytes);
+  if (mesh_uploads_.done()) field_uploads_.some(bytes - mesh_bytes);
+}
+
+SceneBuffers::LightBuffers SceneBuffers::lightOf(const LightChoice& choice) {
+  if (!choice.indirect) return {direct_, element_direct_texture_};
+  const std::shared_ptr<const MeshField> field = bounceField(bounce_light_, choice);
+  if (!field) return {irradiance_, element_irradiance_texture_};
+  if (field != bounce_field_) {
+    const gl::Functions& fn = context_.functions();
+    send<glm::vec3>(bounce_irradiance_, SharedField(field, &field->vertices), mesh_->vertices.size());
+    send<glm::vec4>(element_bounce_, SharedField(field, &field->elements), mesh_->element_count);
+    attachTexels(fn, element_bounce_texture_, GL_RGBA32F, element_bounce_);
+    bounce_field_ = field;
+  }
+  return {bounce_irradiance_, element_bounce_texture_};
+}
+
+void SceneBuffers::useReference(const std::shared_ptr<const ReferenceLight>& reference) {
+  const bool fits = reference && reference->mesh == mesh_;
+  if (!fits && !direct_reference_) {
+    Snapshot direct;
+    direct.mesh = mesh_;
+    direct.direct = direct_field_;
+    direct_reference_ =
+        std::make_shared<const ReferenceLight>(referenceLight(direct, {false, {}}, "direct light alone"));
+  }
+  const auto& wanted = fits ? reference : direct_reference_;
+  if (wanted == reference_light_) return;
+  send<glm::vec3>(reference_, SharedField(wanted, &wanted->reflected), mesh_->vertices.size());
+  reference_light_ = wanted;
+}
+
+const gl::Buffer* SceneBuffers::fieldOf(Quantity quantity) const {
+  if (quantity == Quantity::kUnshot) return &unshot_;
+  if (quantity == Quantity::kBounces) return &bounces_;
+  if (quantity == Quantity::kDifference) return &reference_;
+  return quantity == Quantity::kResidual ? &residual_ : nullptr;
+}
+
+// The light that is shown is a matter of which buffer is read.
+const gl::Texture& SceneBuffers::bind(const LightChoice& choice, Quantity quantity,
+                                      const std::shared_ptr<const ReferenceLight>& reference) {
+  const gl::Functions& fn = context_.functions();
+  const LightBuffers light = lightOf(choice);
+  if (quantity == Quantity::kDifference) useReference(reference);
+  fn.BindVertexArray(vertex_array_.id());
+  attribute(fn, 3, light.vertices, sizeof(glm::vec3), 0);
+  if (const gl::Buffer* field = fieldOf(quantity)) attribute(fn, 5, *field, sizeof(glm::vec3), 0);
+  fn.BindBuffer(GL_ARRAY_BUFFER, 0);
+  return light.elements;
+}
+
+void SceneBuffers::beginMesh(const std::shared_ptr<const Mesh>& shared_mesh) {
+  const gl::Functions& fn = context_.functions();
+  const Mesh& mesh = *shared_mesh;
+  checkTexels(
+      fn, std::max({mesh.triangle_element.size(), std::size_t{mesh.element_count}, 2 * mesh.sides.size()}));
+  mesh_uploads_.clear();
+  mesh_ = shared_mesh;
+  bounds_ = {mesh.bounds_min, mesh.bounds_max};
+  const auto own = [&]<class T>(const std::vector<T>& values) {
+    return std::shared_ptr<const std::vector<T>>(shared_mesh, &values);
+  };
+
+  const std::size_t vertices = mesh.vertices.size();
+  allocate(fn, vertices_, vertices * sizeof(GpuVertex), GL_STATIC_DRAW);
+  mesh_uploads_.add<GpuVertex>(vertices_, vertices,
+                               [shared_mesh](std::size_t first, std::size_t count, GpuVertex* out) {
+                                 for (std::size_t k = 0; k < count; ++k) {
+                                   const Vertex& v = shared_mesh->vertices[first + k];
+                                   out[k] = {v.position, v.normal, v.side};
+                                 }
+                               });
+  for (const gl::Buffer* field : {&irradiance_, &direct_, &ambient_, &unshot_, &bounces_, &residual_})
+    allocate(fn, *field, vertices * sizeof(glm::vec3), GL_DYNAMIC_DRAW);
+  sendAll(mesh_uploads_, triangles_, own(mesh.triangle_vertices));
+  triangle_index_count_ = static_cast<GLsizei>(mesh.triangle_vertices.size());
+  edges_uploaded_ = false;
+
+  fn.BindVertexArray(vertex_array_.id());
+  attribute(fn, 0, vertices_, sizeof(GpuVertex), offsetof(GpuVertex, position));
+  attribute(fn, 1, vertices_, sizeof(GpuVertex), offsetof(GpuVertex, normal));
+  fn.EnableVertexAttribArray(2);
+  fn.VertexAttribIPointer(2, 1, GL_UNSIGNED_INT, sizeof(GpuVertex),
+                          reinterpret_cast<const void*>(offsetof(GpuVertex, side)));
+  attribute(fn, 4, ambient_, sizeof(glm::vec3), 0);
+  attribute(fn, 5, unshot_, sizeof(glm::vec3), 0);
+  fn.BindBuffer(GL_ARRAY_BUFFER, 0);
+  fn.BindVertexArray(0);
+
+  auto sides = std::make_shared<std::vector<glm::vec4>>(std::max<std::size_t>(2 * mesh.sides.size(), 1),
+                                                        glm::vec4(0.0f));
+  for (std::size_t i = 0; i < mesh.sides.size(); ++i) {
+    (*sides)[2 * i] = finiteTexel(mesh.sides[i].reflectance);
+    (*sides)[2 * i + 1] = finiteTexel(mesh.sides[i].emission);
+  }
+  sendAll<glm::vec4>(mesh_uploads_, sides_, std::move(sides));
+  sendAll(mesh_uploads_, triangle_elements_, own(mesh.triangle_element));
+  for (const gl::Buffer* field : {&element_irradiance_, &element_direct_}) {
+    allocate(fn, *field, std::max<std::size_t>(mesh.element_count, 1) * sizeof(glm::vec4), GL_DYNAMIC_DRAW);
+  }
+  attachTexels(fn, sides_texture_, GL_RGBA32F, sides_);
+  attachTexels(fn, triangle_elements_texture_, GL_R32UI, triangle_elements_);
+  attachTexels(fn, element_irradiance_texture_, GL_RGBA32F, element_irradiance_);
+  attachTexels(fn, element_direct_texture_, GL_RGBA32F, element_direct_);
+}
+
+void SceneBuffers::uploadEdges() {
+  if (edges_uploaded_) return;
+  const std::vector<std::uint32_t> pairs = elementEdges(*mesh_);
+  const gl::Functions& fn = context_.functions();
+  fn.BindBuffer(GL_COPY_WRITE_BUFFER, edges_.id());
+  fn.BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(pairs.size() * sizeof(pairs[0])), pairs.data(),
+                GL_STATIC_DRAW);
+  fn.BindBuffer(GL_COPY_WRITE_BUFFER, 0);
+  edge_index_count_ = static_cast<GLsizei>(pairs.size());
+  edges_uploaded_ = true;
+}
+
+}  // namespace unshot
