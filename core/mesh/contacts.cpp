@@ -114,6 +114,18 @@ std::optional<ContactSegment> partInside(const ContactSegment& s, const ChartTri
   return ContactSegment{s.a + first * d, s.a + last * d};
 }
 
+// Whether the segment, inside of the triangle, lies on the outline.
+bool isOnOutline(const ContactSegment& s, const ChartTriangle& t, double distance) {
+  for (int k = 0; k < 3; ++k) {
+    const glm::dvec2 edge = t.uv[(k + 1) % 3] - t.uv[k];
+    const double reach = distance * glm::length(edge);
+    if (t.outline[k] && std::abs(cross(edge, s.a - t.uv[k])) <= reach &&
+        std::abs(cross(edge, s.b - t.uv[k])) <= reach)
+      return true;
+  }
+  return false;
+}
+
 // Where a triangle passes through the surface's plane; nothing where it only reaches it.
 std::optional<ContactSegment> crossing(const Surface& surface, const std::array<glm::dvec3, 3>& corners,
                                        double distance) {
@@ -219,7 +231,8 @@ std::vector<Crossing> findCrossings(const Mesh& mesh, double distance, const Can
       if (owner[other] == owner[t]) return;
       const auto line = crossing(surface, cornersOf(other), distance);
       const auto inside = line ? partInside(*line, mesh.triangles[t], distance) : std::nullopt;
-      if (inside) out.push_back({owner[t], owner[other], *inside});
+      if (inside)
+        out.push_back({owner[t], owner[other], *inside, isOnOutline(*inside, mesh.triangles[t], distance)});
     });
   }
   return out;

@@ -21,7 +21,8 @@ struct ContactSegment {
 /// Where a surface passes through another one's plane, inside its outline.
 struct Crossing {
   std::uint32_t surface = 0, by = 0;
-  ContactSegment line;  ///< in the chart of `surface`
+  ContactSegment line;      ///< in the chart of `surface`
+  bool at_outline = false;  ///< of `surface`, which only ends there
 };
 
 /// `distance` [m]: how far beyond the plane on both sides what passes through it reaches.

@@ -1,7 +1,10 @@
 #include "mesh/reach.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <unordered_set>
+#include <utility>
 
 #include "mesh/shells.h"
 
@@ -11,8 +14,20 @@ namespace {
 // A point off a side is so many weld distances away: beyond what counts as lying in its plane. A second one,
 // nearer, tells what stands between.
 constexpr double kOff = 4, kNear = 1;
-// Points on an emitter that may be in several places.
-constexpr int kMixedPoints = 16;
+
+// Of a surface over another one's plane.
+std::pair<double, double> heights(const Mesh& mesh, std::uint32_t surface, const Surface& over) {
+  double low = INFINITY, high = -INFINITY;
+  const Range triangles = mesh.surfaces[surface].triangles;
+  for (std::uint32_t t = triangles.first; t < triangles.end(); ++t) {
+    for (const std::uint32_t v : mesh.triangles[t].position) {
+      const double height = glm::dot(mesh.positions[v] - over.origin, over.normal);
+      low = std::min(low, height);
+      high = std::max(high, height);
+    }
+  }
+  return {low, high};
+}
 
 class Reach {
  public:
@@ -20,35 +35,44 @@ class Reach {
         Shells& shells, double weld_distance)
       : shells_(shells),
         weld_distance_(weld_distance),
-        stands_on_(mesh.surfaces.size()),
+        stands_on_(2 * mesh.surfaces.size()),
         lit_(2 * mesh.surfaces.size(), 0),
         shell_lit_(lit_.size(), 0),
         shell_known_(lit_.size(), 0) {
     for (const Touch& t : touches) {
       for (std::uint32_t use = t.edge;
-           use < edges.size() && edges[use].a == edges[t.edge].a && edges[use].b == edges[t.edge].b; ++use)
-        stands_on_[t.surface].push_back(edges[use].surface);
+           use < edges.size() && edges[use].a == edges[t.edge].a && edges[use].b == edges[t.edge].b; ++use) {
+        const auto [low, high] = heights(mesh, edges[use].surface, mesh.surfaces[t.surface]);
+        if (high > kOff * weld_distance) stands_on_[2 * t.surface].push_back(edges[use].surface);
+        if (low < -kOff * weld_distance) stands_on_[2 * t.surface + 1].push_back(edges[use].surface);
+      }
     }
   }
 
   /// Returns whether it can be told.
   bool findLight(std::span<const char> emits, const CancelToken& cancel) {
+    // An emitter on which something stands shines wherever the rest of its shell is, and what stands on it.
+    std::vector<char> shines(lit_.size(), 0);
     for (std::uint32_t side = 0; side < emits.size(); ++side) {
       cancel.check();
-      for (int k = 0; emits[side] && k < (isMixed(side) ? kMixedPoints : 1); ++k) {
-        for (const double off : {kOff, kNear}) {
-          const auto place = shells_.placeOf(side, off * weld_distance_, k);
-          if (!place) return false;
-          light_.insert(*place);
-        }
-      }
+      if (!emits[side]) continue;
+      if (!addPlaces(side)) return false;
+      if (!isMixed(side)) continue;
+      shines[shells_.of(side)] = 1;
+      for (const std::uint32_t s : stands_on_[side])
+        shines[shells_.of(2 * s)] = shines[shells_.of(2 * s + 1)] = 1;
+    }
+    for (std::uint32_t side = 0; side < lit_.size(); ++side) {
+      shell_known_[shells_.of(side)] |= static_cast<char>(!isMixed(side));
+      if (shines[shells_.of(side)] && !isMixed(side) && !addPlaces(side)) return false;
+    }
+    for (std::uint32_t side = 0; side < emits.size(); ++side) {
+      if (emits[side] && isMixed(side) && !shell_known_[shells_.of(side)]) return false;
     }
     for (std::uint32_t side = 0; side < lit_.size(); ++side) {
       cancel.check();
       lit_[side] = emits[side] || seesLight(side, kOff) || seesLight(side, kNear);
-      const std::uint32_t shell = shells_.of(side);
-      shell_lit_[shell] |= lit_[side];
-      shell_known_[shell] |= static_cast<char>(!isMixed(side));
+      shell_lit_[shells_.of(side)] |= lit_[side];
     }
     return true;
   }
@@ -61,7 +85,7 @@ class Reach {
       for (std::uint32_t side = 0; side < lit_.size(); ++side) {
         if (lit_[side] || !isMixed(side)) continue;
         bool light = shell_lit_[shells_.of(side)] != 0, known = shell_known_[shells_.of(side)] != 0;
-        for (const std::uint32_t s : stands_on_[side / 2]) {
+        for (const std::uint32_t s : stands_on_[side]) {
           for (const std::uint32_t shell : {shells_.of(2 * s), shells_.of(2 * s + 1)}) {
             light = light || shell_lit_[shell];
             known = known || shell_known_[shell];
@@ -77,15 +101,24 @@ class Reach {
   std::vector<char> take() { return std::move(lit_); }
 
  private:
-  bool isMixed(std::uint32_t side) const { return !stands_on_[side / 2].empty(); }
+  bool isMixed(std::uint32_t side) const { return !stands_on_[side].empty(); }
+  // Returns whether they can be told.
+  bool addPlaces(std::uint32_t side) {
+    for (const double off : {kOff, kNear}) {
+      const auto place = shells_.placeOf(side, off * weld_distance_);
+      if (!place) return false;
+      light_.insert(*place);
+    }
+    return true;
+  }
   bool seesLight(std::uint32_t side, double off) {
-    const auto place = shells_.placeOf(side, off * weld_distance_, 0);
+    const auto place = shells_.placeOf(side, off * weld_distance_);
     return !place || light_.count(*place) > 0;
   }
 
   Shells& shells_;
   double weld_distance_;
-  std::vector<std::vector<std::uint32_t>> stands_on_;  // surfaces, of surfaces
+  std::vector<std::vector<std::uint32_t>> stands_on_;  // surfaces, of sides
   std::unordered_set<Shells::Place> light_;
   std::vector<char> lit_;                      // of sides
   std::vector<char> shell_lit_, shell_known_;  // whether one of its sides is lit, or surely in one place

@@ -167,10 +167,10 @@ bool Shells::separate() { return !lines_->empty(); }
 
 std::uint32_t Shells::of(std::uint32_t side) { return rootOf(shell_, side); }
 
-std::optional<Shells::Place> Shells::placeOf(std::uint32_t side, double off, int number) {
+std::optional<Shells::Place> Shells::placeOf(std::uint32_t side, double off) {
   const Surface& surface = mesh_.surfaces[side / 2];
   const glm::dvec3 away = (side % 2 == 0 ? off : -off) * surface.normal;
-  std::uint64_t state = mixBits(side + 1) ^ mixBits(static_cast<std::uint64_t>(number));
+  std::uint64_t state = mixBits(side + 1);
   const auto random = [&] { return unitInterval(state = mixBits(state)); };
   for (int k = 0; k < kTries; ++k) {
     const auto nth = static_cast<std::uint32_t>(random() * surface.triangles.count);
@@ -228,6 +228,7 @@ void Shells::joinAround(std::span<const SurfaceEdge> uses) {
 
 void Shells::joinCrossing(std::span<const Crossing> crossings) {
   for (const Crossing& c : crossings) {
+    if (c.at_outline) continue;
     for (const std::uint32_t side : {2 * c.surface + 1, 2 * c.by, 2 * c.by + 1}) join(2 * c.surface, side);
   }
 }
@@ -292,7 +293,7 @@ bool Shells::isWhole(const Cap& cap, std::span<const Crossing> crossings) const 
     inside = inside || here;
   }
   return inside && std::none_of(crossings.begin(), crossings.end(), [&](const Crossing& c) {
-           return c.surface == cap.surface && near(c.line.a, c.line.b);
+           return c.surface == cap.surface && !c.at_outline && near(c.line.a, c.line.b);
          });
 }
 

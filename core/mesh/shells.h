@@ -44,9 +44,9 @@ class Shells {
   bool separate();
   /// Shell of side 2 s (front of surface s) or 2 s + 1 (its back).
   std::uint32_t of(std::uint32_t side);
-  /// Where the `number`-th of random points on the side is, moved `off` [m] along its normal. Nothing where
+  /// Where a point of the side is, moved `off` [m] along its normal. Nothing where
   /// that cannot be told, such as on a surface.
-  std::optional<Place> placeOf(std::uint32_t side, double off, int number);
+  std::optional<Place> placeOf(std::uint32_t side, double off);
 
  private:
   class Lines;

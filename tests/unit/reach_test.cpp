@@ -25,7 +25,7 @@ class Rooms {
       : grey_(builder_.material("grey", glm::dvec3(0.5))),
         lamp_(builder_.material("lamp", glm::dvec3(0.5), glm::dvec3(1.0))) {}
 
-  /// Faces of which `open` is kNone are left out: -y, +y, -z, +x, +z, -x.
+  /// Without the face `open`, one of kLowX and so on.
   Rooms& box(const glm::dvec3& corner, const glm::dvec3& edges, bool inwards = false, int open = -1) {
     BoxMaterials materials = allOf(grey_);
     if (open >= 0) materials[static_cast<std::size_t>(open)] = kNone;
@@ -47,12 +47,19 @@ class Rooms {
   std::uint32_t grey_, lamp_;
 };
 
-constexpr int kBottom = 0;
+// Faces of a box.
+constexpr int kLowX = 0, kHighX = 1, kBottom = 2, kTop = 3;
+
+MeshOptions evenly(std::uint64_t elements) {
+  MeshOptions options;
+  options.elements = elements;
+  return options;
+}
 
 // A room of 4 x 3 x 4 that is lit.
 Rooms litRoom() { return Rooms().box({0, 0, 0}, {4, 3, 4}, true).lamp({2, 2.9, 2}); }
 
-std::size_t sidesOf(Rooms rooms) { return buildMesh(rooms.scene(), {.elements = 100}).sides.size(); }
+std::size_t sidesOf(Rooms rooms) { return buildMesh(rooms.scene(), evenly(100)).sides.size(); }
 
 // Six walls from within and both sides of the lamp.
 constexpr std::size_t kRoom = 8;
@@ -83,17 +90,20 @@ TEST(Reach, LeavesOutRoomsWithoutALight) {
 
 TEST(Reach, LeavesOutWhatIsBehindAWallThatTwoRoomsShare) {
   // The dark room x > 4 ends at the lit one's wall x = 4, edge to edge.
-  EXPECT_EQ(sidesOf(litRoom().box({4, 0, 0}, {4, 3, 4}, true, 5)), kRoom);
+  EXPECT_EQ(sidesOf(litRoom().box({4, 0, 0}, {4, 3, 4}, true, kLowX)), kRoom);
 }
 
 // In any of these light may pass, however little: nothing is left out that it may reach.
 TEST(Reach, KeepsWhatLightReachesThroughTheSmallestGap) {
   for (const double gap : {1e-4, 1e-2, 0.5}) {
     // The wall that the two rooms share ends below the ceiling.
-    Rooms rooms =
-        Rooms().lamp({2, 2.9, 2}).box({0, 0, 0}, {4, 3, 4}, true, 3).box({4, 0, 0}, {4, 3, 4}, true, 5);
+    Rooms rooms = Rooms()
+                      .lamp({2, 2.9, 2})
+                      .box({0, 0, 0}, {4, 3, 4}, true, kHighX)
+                      .box({4, 0, 0}, {4, 3, 4}, true, kLowX);
     rooms.quad({4, 0, 0}, {0, 3 - gap, 0}, {0, 0, 4});
-    EXPECT_EQ(sidesOf(rooms), 2 + 5 + 5 + 2) << gap;
+    // Ceilings and two walls of both are one surface each, as nothing stands between.
+    EXPECT_EQ(sidesOf(rooms), 2 + 5 + 2 + 2) << gap;
   }
 }
 
@@ -101,7 +111,7 @@ TEST(Reach, KeepsWhatStandsOverAHole) {
   // A floor with a hole under a box without a bottom, a dark cellar below, and a lamp in the cellar.
   const auto house = [](bool hole, double lamp) {
     Rooms rooms;
-    rooms.box({0, 0, 0}, {4, 3, 4}, true, kBottom).box({0, -3, 0}, {4, 3, 4}, true, 1).lamp({2, lamp, 2});
+    rooms.box({0, 0, 0}, {4, 3, 4}, true, kBottom).box({0, -3, 0}, {4, 3, 4}, true, kTop).lamp({2, lamp, 2});
     rooms.box({1, 0, 1}, {1, 0.5, 1}, false, kBottom);
     if (!hole) return rooms.quad({0, 0, 0}, {0, 0, 4}, {4, 0, 0});
     rooms.quad({0, 0, 0}, {0, 0, 1.4}, {4, 0, 0}).quad({0, 0, 1.6}, {0, 0, 2.4}, {4, 0, 0});
@@ -125,15 +135,29 @@ TEST(Reach, KeepsTheFloorUnderManyBlocks) {
   EXPECT_GE(sidesOf(carpet.quad({0.5, 0, 1.1}, {0, 0, 0.8}, {1.4, 0, 0})), kRoom + 5 + 1);
 }
 
+TEST(Reach, KeepsARoomWhoseFloorShines) {
+  // Nearly all of the floor is under a block.
+  SceneBuilder b;
+  const auto grey = b.material("grey", glm::dvec3(0.5)),
+             lamp = b.material("lamp", glm::dvec3(0.5), glm::dvec3(1));
+  BoxMaterials room = allOf(grey), block = allOf(grey);
+  room[kBottom] = lamp;
+  block[kBottom] = kNone;
+  addBox(b, room, {0, 0, 0}, {4, 3, 4}, true);
+  addBox(b, block, {0.01, 0, 0.01}, {3.98, 1, 3.98}, false);
+  // And what is within the block, lit by the floor below it.
+  EXPECT_EQ(buildMesh(b.finish(), evenly(100)).sides.size(), 6u + 10u);
+}
+
 TEST(Reach, KeepsAllWhereSurfacesPassThroughEachOther) {
   // A pipe from a dark cellar into a box without a bottom; a wall that ends in another room.
-  Rooms rooms = litRoom().box({0, -3, 0}, {4, 3, 4}, true, 1).box({1, 0, 1}, {1, 0.5, 1}, false, kBottom);
+  Rooms rooms = litRoom().box({0, -3, 0}, {4, 3, 4}, true, kTop).box({1, 0, 1}, {1, 0.5, 1}, false, kBottom);
   rooms.box({1.4, -1, 1.4}, {0.2, 1.2, 0.2}, true, kBottom);
   EXPECT_GE(sidesOf(rooms), kRoom + 5);
 }
 
 TEST(Reach, LeavesOutNothingUnderASky) {
-  MeshOptions options{.elements = 100};
+  MeshOptions options = evenly(100);
   options.sky = true;
   EXPECT_EQ(buildMesh(litRoom().scene(), options).sides.size(), 14u);
 }
@@ -144,7 +168,7 @@ TEST(Reach, HoldsForLightThatIsFollowed) {
   std::size_t left_out = 0, sides = 0, met = 0;
   for (std::uint64_t seed = 0; seed < 150; ++seed) {
     const Scene scene = RandomScene(seed).scene();
-    const Mesh mesh = buildMesh(scene, {.elements = 60});
+    const Mesh mesh = buildMesh(scene, evenly(60));
     const MeshRays rays(mesh);
     Dice dice(seed);
     sides += 2 * mesh.surfaces.size();
