@@ -40,7 +40,8 @@ int runOffscreen(ViewerSetup setup, const std::string& provider, int width, int 
   display->makeCurrent();
   Bell bell;
   setup.display = display.get();
-  setup.session = {solver.get(), [&bell] { bell.ring(); }};
+  setup.session.gl = solver.get();
+  setup.session.wake = [&bell] { bell.ring(); };
   setup.resize = [&](int w, int h) {
     width = w;
     height = h;
@@ -76,6 +77,7 @@ int runOffscreen(ViewerSetup setup, const std::string& provider, int width, int 
     }
     bell.wait(std::clamp(std::min(viewer.nextFrame(now), viewer.nextUpdate()) - now, 0.0, 1.0));
   }
+  viewer.finish();
   return viewer.exitCode();
 }
 

@@ -66,8 +66,10 @@ PhaseLook lookOf(const SessionState& state) {
 
 void chooseScene(Viewer& viewer) {
   const SessionState& state = viewer.state();
-  const float help_width = ImGui::CalcTextSize("Help").x + 2 * ImGui::GetStyle().FramePadding.x;
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - help_width - ImGui::GetStyle().ItemSpacing.x);
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float buttons = ImGui::CalcTextSize("Save").x + ImGui::CalcTextSize("Help").x +
+                        4 * style.FramePadding.x + 2 * style.ItemSpacing.x;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - buttons);
   const std::string shown = state.facts ? state.facts->scene_name : "no scene";
   if (ImGui::BeginCombo("##scene", shown.c_str(), ImGuiComboFlags_HeightLarge)) {
     for (const std::filesystem::path& scene : viewer.bundledScenes()) {
@@ -79,6 +81,13 @@ void chooseScene(Viewer& viewer) {
   } else {
     tooltip(state.facts ? state.facts->scene_path.string() : "Scenes to begin with");
   }
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!state.facts);
+  if (ImGui::Button("Save")) viewer.perform("save-solve");
+  tooltip(
+      "Ctrl+S: saves the solve with its form factors in the working folder. unshot view SCENE.obj --resume "
+      "FILE goes on from it");
+  ImGui::EndDisabled();
   ImGui::SameLine();
   if (ImGui::Button("Help")) viewer.perform("help");
   tooltip("H: keys and mouse");
