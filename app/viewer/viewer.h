@@ -51,6 +51,7 @@ struct ViewerState {
   DisplaySettings settings;
   bool panel = true;
   bool help = false;
+  bool notes = false;  ///< those on the scene, in full
   PlotAxis plot_axis = PlotAxis::kSeconds;
 };
 

@@ -79,6 +79,7 @@ const std::map<std::string_view, std::string>& validArguments() {
       {"camera", "278,273,-800,278,273,0,39"},
       {"panel", "off"},
       {"help", "on"},
+      {"notes", "on"},
       {"plot", "rows"},
       {"bounces", "2"},
       {"reference", "solution.ply"},
