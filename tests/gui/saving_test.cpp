@@ -4,6 +4,7 @@
 #include "gui/support/program_pictures.h"
 #include "gui/support/screen.h"
 #include "support/live_viewer.h"
+#include "support/sanitized.h"
 #include "support/scenes.h"
 
 namespace unshot {
@@ -132,6 +133,22 @@ TEST_F(Saving, AKeptSolveThatFindsNoRoomAtTheEndIsReported) {
   EXPECT_THAT(run.err, HasSubstr("s.unshot: cannot be written: File too large"));
   EXPECT_TRUE(folder_.read("s.unshot") == before);
   EXPECT_EQ(folder_.names().size(), 4u) << "a temporary file is left";
+}
+
+// Memory that is used up while the window solves and draws.
+TEST_F(Saving, MemoryThatIsUsedUpIsSaidAndCostsNoSolve) {
+  if (kSanitized) GTEST_SKIP() << "a sanitizer takes terabytes of addresses";
+  folder_.write("script.txt", "wait converged\nscreenshot message.png\n");
+  const ProgramResult run =
+      runProgram(folder_,
+                 {"view", "--gl", "osmesa", "--script", "script.txt", "room.obj", "--form-factors", "rays",
+                  "--elements", "60000", "--error", "1e-6", "--save", "s.unshot"},
+                 {1'000'000'000});
+  EXPECT_EQ(run.code, 4) << run.err;
+  EXPECT_THAT(run.err, AllOf(HasSubstr("there is not enough memory"), HasSubstr("--keep")));
+  const ProgramResult resumed =
+      runProgram(folder_, {"solve", "room.obj", "--resume", "s.unshot", "--keep", "50", "--max-shots", "10"});
+  EXPECT_EQ(resumed.code, 5) << resumed.err;
 }
 
 // Saving a solve that is still being loaded is no save of the one before.
