@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <iostream>
 #include <memory>
 #include <string>
 
@@ -7,6 +9,7 @@
 #include "base/error.h"
 #include "base/parse.h"
 #include "cli/commands.h"
+#include "cli/interrupt.h"
 #include "cli/saving_arguments.h"
 #include "cli/solver_arguments.h"
 #include "render/display_modes.h"
@@ -34,7 +37,19 @@ class ViewArguments {
   }
 
   int run() const {
+    const InterruptFlag interrupted;
     ViewerSetup setup;
+    setup.interrupted = [&] { return interrupted.raised(); };
+    setup.watch_interrupts = [](std::function<void()> wake) -> std::shared_ptr<void> {
+      return std::make_shared<InterruptWatch>(std::move(wake));
+    };
+    const int code = show(std::move(setup));
+    if (interrupted.raised()) std::cerr << "unshot: interrupted" << std::endl;
+    return code;
+  }
+
+ private:
+  int show(ViewerSetup setup) const {
     setup.scene = scene_.empty() ? std::filesystem::path(UNSHOT_ASSETS_DIR) / "cornell_box.obj"
                                  : std::filesystem::path(scene_);
     setup.bundled = bundledScenes();
@@ -65,7 +80,6 @@ class ViewArguments {
     return runOffscreen(std::move(setup), solver_.gl(), window.width, window.height);
   }
 
- private:
   /// What need not wait for a window: a name with nothing behind it.
   static void checkScene(const std::filesystem::path& scene) {
     std::error_code error;

@@ -46,6 +46,8 @@ int runOffscreen(ViewerSetup setup, const std::string& provider, int width, int 
     width = w;
     height = h;
   };
+  std::shared_ptr<void> watch;
+  if (setup.watch_interrupts) watch = setup.watch_interrupts([&bell] { bell.ring(); });
   Viewer viewer(std::move(setup));
   // Frames go nowhere, but are drawn as in a window: a small target is enough, screenshots have their own.
   const gl::Texture texture(*display);

@@ -59,6 +59,10 @@ void Viewer::setScale(double scale) {
 // What happens.
 
 void Viewer::update(double now) {
+  if (setup_.interrupted && setup_.interrupted()) {
+    exit_code_ = kExitInterrupted;
+    closing_ = true;
+  }
   takeState(now);
   runScript(now);
   if (!notice_.empty() && now >= notice_until_) {

@@ -40,6 +40,10 @@ struct ViewerSetup {
   std::function<void(int, int)> resize;
   /// Gives the window another title; may be empty.
   std::function<void(const std::string&)> title;
+  /// Whether the program is to end, such as by Ctrl-C: the window closes. May be empty.
+  std::function<bool()> interrupted;
+  /// Has the host woken when that is so, for as long as what it returns lives. May be empty.
+  std::function<std::shared_ptr<void>(std::function<void()> wake)> watch_interrupts;
 };
 
 /// What the curve runs against.

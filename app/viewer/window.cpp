@@ -106,6 +106,8 @@ int runWindow(ViewerSetup setup, const WindowOptions& wanted) {
     setup.session.wake = [] { glfwPostEmptyEvent(); };
     setup.resize = [window](int width, int height) { glfwSetWindowSize(window, width, height); };
     setup.title = [window](const std::string& title) { glfwSetWindowTitle(window, title.c_str()); };
+    std::shared_ptr<void> watch;
+    if (setup.watch_interrupts) watch = setup.watch_interrupts([] { glfwPostEmptyEvent(); });
     int code = 0;
     {
       Viewer viewer(std::move(setup));

@@ -196,6 +196,7 @@ void LiveSolve::saveKept() {
 }
 
 void LiveSolve::finish() {
+  if (!isKept()) return;
   saveKept();
   publish();
 }

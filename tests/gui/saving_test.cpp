@@ -215,6 +215,24 @@ TEST_F(SavingInAWindow, AKeptSolveIsSavedWhenTheWindowCloses) {
   EXPECT_TRUE(goesOn(run.folder(), "s.unshot"));
 }
 
+// Ctrl-C in the terminal that it was started from, also while it rests.
+TEST_F(SavingInAWindow, AKeptSolveIsSavedWhenInterrupted) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const TempFolder folder;
+    ProgramRun run(folder.path(),
+                   with({"view", "--save", "s.unshot", "--save-every", "1000", "--max-shots", "3"}, kLong));
+    // Saved where it comes to rest, and once more at the end.
+    ASSERT_TRUE(eventually([&] { return folder.has("s.unshot") || !run.running(); })) << run.errorsSoFar();
+    std::filesystem::remove(folder.path() / "s.unshot");
+    run.send(signal);
+    ASSERT_TRUE(eventually([&] { return !run.running(); })) << "sleeps on";
+    const ProgramResult result = run.wait();
+    EXPECT_EQ(result.code, 130) << result.err;
+    EXPECT_EQ(result.err, "unshot: interrupted\n");
+    EXPECT_TRUE(goesOn(folder, "s.unshot"));
+  }
+}
+
 TEST_F(SavingInAWindow, AKeptSolveIsThereAfterAKill) {
   TempFolder folder;
   ProgramRun run(folder.path(), with({"view", "--save", "s.unshot", "--save-every", "0.2"}, kLong));
