@@ -1,6 +1,9 @@
 // Ctrl-C while a command runs: a flag that is looked at between its steps and while it loads a scene.
 #pragma once
 
+#include <functional>
+#include <thread>
+
 #include "base/cancel.h"
 
 namespace unshot {
@@ -17,6 +20,20 @@ class InterruptFlag {
   bool raised() const;
   /// Asks for an end once the flag is raised.
   CancelToken token() const;
+};
+
+/// For who sleeps until something happens: calls `wake` on a thread of its own when the flag is raised, once
+/// at most. Within the life of a flag; one at a time.
+class InterruptWatch {
+ public:
+  explicit InterruptWatch(std::function<void()> wake);
+  /// Waits for a call under way.
+  ~InterruptWatch();
+  InterruptWatch(const InterruptWatch&) = delete;
+  InterruptWatch& operator=(const InterruptWatch&) = delete;
+
+ private:
+  std::thread thread_;
 };
 
 }  // namespace unshot

@@ -17,7 +17,7 @@
 #include "cli/interrupt.h"
 #include "cli/picture.h"
 #include "cli/progress.h"
-#include "cli/saver.h"
+#include "cli/saving_arguments.h"
 #include "cli/solve_request.h"
 #include "cli/summary.h"
 #include "cli/text.h"
@@ -25,6 +25,7 @@
 #include "report/report_json.h"
 #include "scene/obj_reader.h"
 #include "session/saved_solve.h"
+#include "session/saver.h"
 
 namespace unshot {
 namespace {
@@ -45,7 +46,10 @@ void runSteps(Solve& solve, const InterruptFlag& interrupted, Progress& progress
     solve.step(Solve::kMostAtOnce);
     const Measures& m = solve.measures();
     progress.update({solve.progress(), m.unshot_fraction, m.solverBound(), m.shots, m.seconds - began});
-    saver.offer(solve);
+    if (const std::optional<Error> failed = saver.offer(solve)) {
+      std::cerr << "unshot: " << failed->fullText() << "\n  the solve goes on, and is saved again later"
+                << std::endl;
+    }
   }
   progress.finish();
 }
@@ -166,16 +170,6 @@ int finishSolve(const SolveRequest& request, const Solve& solve, LazyContext& co
   return concludeSolve(solve, solve.options(), interrupted);
 }
 
-/// The saved solve to go on from, and what is to be asked of it; none where it is not asked for.
-std::shared_ptr<SavedSolve> readResumed(const SolveRequest& request, SolveOptions& options) {
-  if (request.resume.empty()) return nullptr;
-  std::shared_ptr<SavedSolve> saved = readSavedSolve(request.resume);
-  if (!request.error_given) options.error = saved->error;
-  std::cerr << "unshot: goes on from " << request.resume.string() << ": " << countedText(saved->shots, "shot")
-            << " in " << figureText(saved->seconds) << " s" << std::endl;
-  return saved;
-}
-
 int solveScene(const SolveRequest& request, const InterruptFlag& interrupted) {
   checkOutputs(request);
   printDiagnostics(std::cerr, endingNotes(request));
@@ -183,7 +177,7 @@ int solveScene(const SolveRequest& request, const InterruptFlag& interrupted) {
   std::vector<Probe> probes;
   if (!request.probe.empty()) probes = readProbes(request.probe);
   SolveOptions options = request.options;
-  std::shared_ptr<SavedSolve> saved = readResumed(request, options);
+  std::shared_ptr<SavedSolve> saved = readResumed(request.resume, request.error_given, options);
   Progress progress(options.max_seconds.value_or(0));
   LazyContext context(request.gl);
   // A picture needs GL: where there is none, that is said before the solve.

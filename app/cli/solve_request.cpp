@@ -20,15 +20,6 @@ std::optional<glm::dvec3> vectorOf(const std::string& text) {
   return text.empty() ? std::nullopt : parseVector(text);
 }
 
-bool samePath(const std::filesystem::path& a, const std::filesystem::path& b) {
-  std::error_code error;
-  if (std::filesystem::equivalent(a, b, error)) return std::filesystem::is_regular_file(a, error);
-  const auto canonical = [&](const std::filesystem::path& path) {
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
-  };
-  return canonical(a) == canonical(b) && !std::filesystem::exists(a, error);
-}
-
 }  // namespace
 
 bool SolveRequest::needsPicture() const {
@@ -41,7 +32,7 @@ SolveArguments::SolveArguments(Command& command)
   command.argument("SCENE.obj", scene_, "The scene: Wavefront OBJ with MTL");
   addOutputs(command);
   addPicture(command);
-  addSaving(command);
+  saving_.add(command, SolverUse::kSolve);
 }
 
 void SolveArguments::addOutputs(Command& command) {
@@ -55,25 +46,6 @@ void SolveArguments::addOutputs(Command& command) {
               fileName());
   command.need("--probe", "--probe-out");
   command.need("--probe-out", "--probe");
-}
-
-void SolveArguments::addSaving(Command& command) {
-  command.group("To go on later");
-  command.add("--save", save_, "F",
-              "Save the solve itself, now and then, on Ctrl-C and at the end: mesh, light and form factors "
-              "(as large as these)",
-              fileName());
-  command.add("--save-every", save_every_, "S",
-              "Seconds between two saves (default 60), more where saving takes long", positiveNumber());
-  command.add("--resume", resume_, "F",
-              "Go on from a saved solve of this scene; limits count from there, and its --mode and --error "
-              "hold where they are not given",
-              fileName());
-  command.need("--save-every", "--save");
-  command.exclude("--save", "--bounces");
-  for (const char* decided : {"--form-factors", "--elements", "--element-size", "--max-elements", "--emit",
-                              "--sky", "--seed", "--hemicube", "--bounces"})
-    command.exclude("--resume", decided);
 }
 
 void SolveArguments::addPicture(Command& command) {
@@ -102,9 +74,9 @@ SolveRequest SolveArguments::request() const {
   request.gl = solver_.gl();
   request.shader_dir = solver_.shaderDir();
   request.probe = probe_;
-  request.save = save_;
-  request.resume = resume_;
-  request.save_every = save_every_.value_or(request.save_every);
+  request.save = saving_.save();
+  request.resume = saving_.resume();
+  request.save_every = saving_.saveEvery();
   request.error_given = solver_.errorGiven();
   request.picture = picture_;
   request.picture.linear = false;

@@ -8,6 +8,7 @@
 
 #include "base/diagnostic.h"
 #include "cli/options.h"
+#include "cli/saving_arguments.h"
 #include "cli/solver_arguments.h"
 #include "export/exporters.h"
 #include "render/picture.h"
@@ -46,10 +47,9 @@ class SolveArguments {
  private:
   void addPicture(Command& command);
   void addOutputs(Command& command);
-  void addSaving(Command& command);
 
-  std::string scene_, probe_, save_, resume_;
-  std::optional<double> save_every_;
+  std::string scene_, probe_;
+  SavingArguments saving_;
   SolverArguments solver_;
   PictureOptions picture_;
   std::string size_, eye_, at_, up_;

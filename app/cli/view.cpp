@@ -1,14 +1,20 @@
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <iostream>
 #include <memory>
 #include <string>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/parse.h"
 #include "cli/commands.h"
+#include "cli/interrupt.h"
+#include "cli/saving_arguments.h"
 #include "cli/solver_arguments.h"
 #include "render/display_modes.h"
 #include "render/picture.h"
+#include "session/saved_solve.h"
 #include "viewer/offscreen.h"
 #include "viewer/window.h"
 
@@ -27,10 +33,23 @@ class ViewArguments {
     command.add("--display", display_, "MODE",
                 "What is shown at first: " + keysOf(displayModes(), false) + " (default radiosity)",
                 keyOf(displayModes(), false));
+    saving_.add(command, SolverUse::kView);
   }
 
   int run() const {
+    const InterruptFlag interrupted;
     ViewerSetup setup;
+    setup.interrupted = [&] { return interrupted.raised(); };
+    setup.watch_interrupts = [](std::function<void()> wake) -> std::shared_ptr<void> {
+      return std::make_shared<InterruptWatch>(std::move(wake));
+    };
+    const int code = show(std::move(setup));
+    if (interrupted.raised()) std::cerr << "unshot: interrupted" << std::endl;
+    return code;
+  }
+
+ private:
+  int show(ViewerSetup setup) const {
     setup.scene = scene_.empty() ? std::filesystem::path(UNSHOT_ASSETS_DIR) / "cornell_box.obj"
                                  : std::filesystem::path(scene_);
     setup.bundled = bundledScenes();
@@ -43,6 +62,10 @@ class ViewArguments {
     }
     useShaderDir(solver_.shaderDir());
     checkScene(setup.scene);
+    checkSave(setup.scene);
+    setup.session.kept = {saving_.save(), saving_.saveEvery(), setup.scene};
+    setup.saved = readResumed(saving_.resume(), solver_.errorGiven(), setup.options);
+    if (setup.saved) setup.options = withoutMesh(setup.saved->options(setup.options));
     WindowOptions window;
     if (!size_.empty()) {
       const std::vector<std::string_view> parts = splitParts(size_, 'x');
@@ -57,12 +80,27 @@ class ViewArguments {
     return runOffscreen(std::move(setup), solver_.gl(), window.width, window.height);
   }
 
- private:
   /// What need not wait for a window: a name with nothing behind it.
   static void checkScene(const std::filesystem::path& scene) {
     std::error_code error;
     if (std::filesystem::exists(scene, error)) return;
     throw Error(ErrorKind::kInput, "there is no such file", scene.string(), "the path of an OBJ file");
+  }
+
+  /// Whether the solve can be saved is found out before it begins.
+  void checkSave(const std::filesystem::path& scene) const {
+    if (saving_.save().empty()) return;
+    if (samePath(saving_.save(), scene)) {
+      throw Error(ErrorKind::kUsage, "--save would replace the input " + scene.string(), {},
+                  "another file name");
+    }
+    checkWritable(saving_.save());
+  }
+
+  /// The panel's options: a mesh for other ones is cut anew.
+  static SolveOptions withoutMesh(SolveOptions options) {
+    options.mesh.reset();
+    return options;
   }
 
   static std::vector<std::filesystem::path> bundledScenes() {
@@ -76,6 +114,7 @@ class ViewArguments {
   }
 
   SolverArguments solver_;
+  SavingArguments saving_;
   std::string scene_, script_, size_, display_ = "radiosity";
 };
 

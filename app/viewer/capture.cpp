@@ -53,8 +53,8 @@ class Canvas {
 
 }  // namespace
 
-/// unshot-SCENE-001.png in the working folder, the first number that is free.
-std::filesystem::path Viewer::newPictureName() const {
+/// unshot-SCENE-001 and the ending, in the working folder, the first number that is free.
+std::filesystem::path Viewer::newFileName(const std::string& ending) const {
   std::string stem = "unshot";
   if (state_->facts) stem += "-" + state_->facts->scene_name;
   for (char& c : stem) {
@@ -63,7 +63,7 @@ std::filesystem::path Viewer::newPictureName() const {
   for (int number = 1;; ++number) {
     std::string digits = std::to_string(number);
     digits.insert(0, digits.size() < 3 ? 3 - digits.size() : 0, '0');
-    const std::filesystem::path path = std::filesystem::absolute(stem + "-" + digits + ".png");
+    const std::filesystem::path path = std::filesystem::absolute(stem + "-" + digits + ending);
     const bool taken =
         std::any_of(captures_.begin(), captures_.end(), [&](const Capture& c) { return c.path == path; });
     if (!taken && !std::filesystem::exists(path)) return path;
@@ -71,7 +71,7 @@ std::filesystem::path Viewer::newPictureName() const {
 }
 
 void Viewer::screenshot(std::filesystem::path path, bool with_panels) {
-  if (path.empty()) path = newPictureName();
+  if (path.empty()) path = newFileName(".png");
   checkWritable(path);
   captures_.push_back({std::move(path), with_panels});
   notice_.clear();

@@ -40,11 +40,14 @@ int runOffscreen(ViewerSetup setup, const std::string& provider, int width, int 
   display->makeCurrent();
   Bell bell;
   setup.display = display.get();
-  setup.session = {solver.get(), [&bell] { bell.ring(); }};
+  setup.session.gl = solver.get();
+  setup.session.wake = [&bell] { bell.ring(); };
   setup.resize = [&](int w, int h) {
     width = w;
     height = h;
   };
+  std::shared_ptr<void> watch;
+  if (setup.watch_interrupts) watch = setup.watch_interrupts([&bell] { bell.ring(); });
   Viewer viewer(std::move(setup));
   // Frames go nowhere, but are drawn as in a window: a small target is enough, screenshots have their own.
   const gl::Texture texture(*display);
@@ -76,6 +79,7 @@ int runOffscreen(ViewerSetup setup, const std::string& provider, int width, int 
     }
     bell.wait(std::clamp(std::min(viewer.nextFrame(now), viewer.nextUpdate()) - now, 0.0, 1.0));
   }
+  viewer.finish();
   return viewer.exitCode();
 }
 

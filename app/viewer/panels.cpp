@@ -12,6 +12,7 @@
 #include "solver/modes.h"
 #include "viewer/bounce_panel.h"
 #include "viewer/error_panel.h"
+#include "viewer/notes_panel.h"
 #include "viewer/race_panel.h"
 #include "viewer/theme.h"
 #include "viewer/widgets.h"
@@ -66,8 +67,10 @@ PhaseLook lookOf(const SessionState& state) {
 
 void chooseScene(Viewer& viewer) {
   const SessionState& state = viewer.state();
-  const float help_width = ImGui::CalcTextSize("Help").x + 2 * ImGui::GetStyle().FramePadding.x;
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - help_width - ImGui::GetStyle().ItemSpacing.x);
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float buttons = ImGui::CalcTextSize("Save").x + ImGui::CalcTextSize("Help").x +
+                        4 * style.FramePadding.x + 2 * style.ItemSpacing.x;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - buttons);
   const std::string shown = state.facts ? state.facts->scene_name : "no scene";
   if (ImGui::BeginCombo("##scene", shown.c_str(), ImGuiComboFlags_HeightLarge)) {
     for (const std::filesystem::path& scene : viewer.bundledScenes()) {
@@ -79,6 +82,13 @@ void chooseScene(Viewer& viewer) {
   } else {
     tooltip(state.facts ? state.facts->scene_path.string() : "Scenes to begin with");
   }
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!state.facts);
+  if (ImGui::Button("Save")) viewer.perform("save-solve");
+  tooltip(
+      "Ctrl+S: saves the solve with its form factors in the working folder. unshot view SCENE.obj --resume "
+      "FILE goes on from it");
+  ImGui::EndDisabled();
   ImGui::SameLine();
   if (ImGui::Button("Help")) viewer.perform("help");
   tooltip("H: keys and mouse");
@@ -318,39 +328,6 @@ void figuresSection(Viewer& viewer) {
   ImGui::PopTextWrapPos();
 }
 
-void notesSection(Viewer& viewer) {
-  const SessionState& state = viewer.state();
-  if (!state.facts) return;
-  const auto bullet = [](const std::string& text) {
-    ImGui::Bullet();
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopTextWrapPos();
-  };
-  if (!state.facts->plan.empty()) {
-    const std::string title = "Left out (" + std::to_string(state.facts->plan.size()) + ")###plan";
-    if (ImGui::CollapsingHeader(title.c_str())) {
-      for (const PlanDecision& d : state.facts->plan) bullet(d.what + ": " + d.why);
-    }
-  }
-  Diagnostics notes = state.facts->diagnostics;
-  if (state.rival) {
-    for (const Diagnostic& d : state.rival->facts->diagnostics) {
-      const bool known = std::any_of(notes.begin(), notes.end(),
-                                     [&](const Diagnostic& n) { return n.message == d.message; });
-      if (!known) notes.push_back(d);
-    }
-  }
-  if (!notes.empty()) {
-    const std::string title = "Notes on the scene (" + std::to_string(notes.size()) + ")###notes";
-    if (ImGui::CollapsingHeader(title.c_str())) {
-      for (const Diagnostic& d : notes)
-        bullet((d.where.empty() ? "" : d.where + ": ") + d.message +
-               (d.advice.empty() ? "" : " (" + d.advice + ")"));
-    }
-  }
-}
-
 }  // namespace
 
 int panelWidth(const ViewerState& ui, double scale, int width) {
@@ -373,6 +350,7 @@ void buildSidePanel(Viewer& viewer, int left) {
   head(viewer);
   ImGui::Separator();
   ImGui::BeginChild("sections");
+  warningsSection(viewer);
   solveSection(viewer);
   errorsSection(viewer);
   convergenceSection(viewer);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/atomic_file.h"
 #include "base/clock.h"
 #include "exit_codes.h"
 #include "viewer/actions.h"
@@ -42,7 +43,7 @@ Viewer::Viewer(ViewerSetup setup)
   ui_.settings = setup_.settings;
   setScale(1);
   if (!script_.empty()) hold_.emplace(session_);
-  if (!setup_.scene.empty()) open(setup_.scene);
+  if (!setup_.scene.empty()) session_.open(setup_.scene, ui_.options, std::move(setup_.saved));
 }
 
 Viewer::~Viewer() = default;
@@ -58,6 +59,10 @@ void Viewer::setScale(double scale) {
 // What happens.
 
 void Viewer::update(double now) {
+  if (setup_.interrupted && setup_.interrupted()) {
+    exit_code_ = kExitInterrupted;
+    closing_ = true;
+  }
   takeState(now);
   runScript(now);
   if (!notice_.empty() && now >= notice_until_) {
@@ -71,7 +76,7 @@ void Viewer::takeState(double now) {
   if (latest->version == state_->version) return;
   const bool news = latest->phase != state_->phase || latest->problems != state_->problems;
   const bool another = latest->epoch != state_->epoch;
-  state_ = latest;
+  const std::shared_ptr<const SessionState> before = std::exchange(state_, latest);
   if (another) {
     rate_points_.clear();
     error_.reset();
@@ -81,8 +86,10 @@ void Viewer::takeState(double now) {
     frame_wanted_ = frame_wanted_ || state_->facts->scene_path != framed_scene_;
   }
   noteRates(now);
+  noteSaved(*before);
   if (state_->problems > problems_seen_ && state_->problem) {
     problems_seen_ = state_->problems;
+    notice_.clear();
     // What was asked for is not to be had: the panel shows what is.
     if (state_->facts && session_.sent() == state_->commands) ui_.options = state_->facts->options;
     fail(*state_->problem);
@@ -123,7 +130,8 @@ void Viewer::key(int key, bool ctrl) {
 void Viewer::fail(const Error& error) {
   showError(error);
   std::cerr << "unshot: " << error.fullText() << std::endl;
-  if (exit_code_ == 0 && (!script_.empty() || state_->epoch == 0)) exit_code_ = exitCodeOf(error.kind());
+  if (exit_code_ == 0 && (!script_.empty() || state_->epoch == 0 || closing_))
+    exit_code_ = exitCodeOf(error.kind());
 }
 
 void Viewer::showError(const Error& error) {
@@ -203,6 +211,26 @@ void Viewer::forgetOldLight() {
   ViewOptions& view = ui_.settings.view;
   if (view.reference && view.reference->mesh != state_->snapshot->mesh) view.reference.reset();
   if (view.light.bounces) session_.completeBounces();
+}
+
+void Viewer::saveSolve(std::filesystem::path path) {
+  if (path.empty()) path = newFileName(".unshot");
+  if (state_->facts && samePath(path, state_->facts->scene_path))
+    throw Error(ErrorKind::kUsage, "is the scene itself", path.string(), "another file name");
+  checkWritable(path);
+  notice("saving the solve: " + path.string());
+  notice_until_ = kNever;
+  session_.save(std::move(path));
+}
+
+void Viewer::noteSaved(const SessionState& before) {
+  if (state_->saves > before.saves) notice("written: " + state_->saved_as.string());
+}
+
+void Viewer::finish() {
+  closing_ = true;
+  session_.close();
+  takeState(wallSeconds());
 }
 
 void Viewer::frameScene() { frame_wanted_ = true; }

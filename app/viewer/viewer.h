@@ -30,6 +30,7 @@ struct ViewerSetup {
   gl::Context* display = nullptr;  ///< current on the main thread; outlives the viewer
   SessionSetup session;
   std::filesystem::path scene;
+  std::shared_ptr<SavedSolve> saved;           ///< of the scene, to go on from; null: none
   std::vector<std::filesystem::path> bundled;  ///< scenes that the panel offers
   SolveOptions options;
   DisplaySettings settings;
@@ -39,6 +40,10 @@ struct ViewerSetup {
   std::function<void(int, int)> resize;
   /// Gives the window another title; may be empty.
   std::function<void(const std::string&)> title;
+  /// Whether the program is to end, such as by Ctrl-C: the window closes. May be empty.
+  std::function<bool()> interrupted;
+  /// Has the host woken when that is so, for as long as what it returns lives. May be empty.
+  std::function<std::shared_ptr<void>(std::function<void()> wake)> watch_interrupts;
 };
 
 /// What the curve runs against.
@@ -50,6 +55,7 @@ struct ViewerState {
   DisplaySettings settings;
   bool panel = true;
   bool help = false;
+  bool notes = false;  ///< those on the scene, in full
   PlotAxis plot_axis = PlotAxis::kSeconds;
 };
 
@@ -91,6 +97,9 @@ class Viewer {
   /// Size of the GUI: 1 is a font of 15 px.
   void setScale(double scale);
   bool closing() const { return closing_; }
+  /// Ends the session, once nothing more is to be shown: waits for one step at most, and for what is still to
+  /// be saved. Only exitCode() may be called afterwards.
+  void finish();
   bool scriptDone() const { return script_at_ >= script_.size() && captures_.empty(); }
   /// 0, or the exit code of the first thing that failed in the script, or of why there is no scene.
   int exitCode() const { return exit_code_; }
@@ -142,6 +151,9 @@ class Viewer {
   /// Writes what the window shows, with its panels or without. An empty path: a new name in the working
   /// folder.
   void screenshot(std::filesystem::path path, bool with_panels);
+  /// Saves the present solve, which goes on, at its next pause between two steps. An empty path: a new name
+  /// in the working folder.
+  void saveSolve(std::filesystem::path path);
   /// A line that goes away by itself.
   void notice(std::string text);
   void showError(const Error& error);
@@ -191,7 +203,8 @@ class Viewer {
   bool drawScene(double now, double deadline);
   void paint(GLuint framebuffer, int width, int height, int scene_width, bool gui);
   void capture(const Capture& wanted, int width, int height, int scene_width);
-  std::filesystem::path newPictureName() const;
+  void noteSaved(const SessionState& before);
+  std::filesystem::path newFileName(const std::string& ending) const;
 
   ViewerSetup setup_;
   struct GuiContext {

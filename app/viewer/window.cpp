@@ -102,9 +102,12 @@ int runWindow(ViewerSetup setup, const WindowOptions& wanted) {
     glfwSwapInterval(1);
     glfwSetWindowSizeLimits(window, 240, 180, GLFW_DONT_CARE, GLFW_DONT_CARE);
     setup.display = display.get();
-    setup.session = {solver.get(), [] { glfwPostEmptyEvent(); }};
+    setup.session.gl = solver.get();
+    setup.session.wake = [] { glfwPostEmptyEvent(); };
     setup.resize = [window](int width, int height) { glfwSetWindowSize(window, width, height); };
     setup.title = [window](const std::string& title) { glfwSetWindowTitle(window, title.c_str()); };
+    std::shared_ptr<void> watch;
+    if (setup.watch_interrupts) watch = setup.watch_interrupts([] { glfwPostEmptyEvent(); });
     int code = 0;
     {
       Viewer viewer(std::move(setup));
@@ -115,8 +118,9 @@ int runWindow(ViewerSetup setup, const WindowOptions& wanted) {
       glfwGetWindowContentScale(window, &scale, nullptr);
       viewer.setScale(std::clamp(static_cast<double>(scale), 0.5, 4.0));
       runLoop(viewer, window);
-      // The window goes at once; the solver may need a moment to end its step.
+      // The window goes at once; the solver may need a moment to end its step and to save.
       glfwHideWindow(window);
+      viewer.finish();
       code = viewer.exitCode();
     }
     return code;

@@ -164,6 +164,15 @@ bool isPipeOrDevice(const fs::path& path) {
   return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
+bool samePath(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  if (fs::equivalent(a, b, error)) return fs::is_regular_file(a, error);
+  const auto canonical = [&](const fs::path& path) {
+    return fs::weakly_canonical(fs::absolute(path, error), error);
+  };
+  return canonical(a) == canonical(b) && !fs::exists(a, error);
+}
+
 void checkWritable(const fs::path& path) {
   const fs::path target = resolveTarget(path);
   if (isPipeOrDevice(target)) {

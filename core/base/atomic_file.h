@@ -13,6 +13,9 @@ namespace unshot {
 /// path.
 void checkWritable(const std::filesystem::path& path);
 
+/// Whether both name one file, which need not be there yet; never where it is a pipe, a device or a folder.
+bool samePath(const std::filesystem::path& a, const std::filesystem::path& b);
+
 /// Whether `path` is there and is neither a file nor a folder, so that writing may wait for a reader.
 bool isPipeOrDevice(const std::filesystem::path& path);
 

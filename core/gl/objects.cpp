@@ -11,6 +11,27 @@
 namespace unshot::gl {
 namespace {
 
+constexpr GLenum kContextLost = 0x0507;  // of OpenGL 4.5
+
+std::string hexadecimal(GLenum value) {
+  char text[16];
+  std::snprintf(text, sizeof text, "0x%x", value);
+  return text;
+}
+
+[[noreturn]] void failWith(GLenum error, std::string_view where) {
+  const std::string name = "(OpenGL error " + hexadecimal(error) + " after " + std::string(where) + ")";
+  if (error == GL_OUT_OF_MEMORY) {
+    throw Error(ErrorKind::kEnvironment, "there is not enough memory to draw " + name, {},
+                "fewer elements, less memory for form factors (--keep) or a smaller picture");
+  }
+  if (error == kContextLost) {
+    throw Error(ErrorKind::kEnvironment, "the graphics driver was reset, and what it held is lost " + name,
+                {}, "starting it again; what was saved with --save goes on with --resume");
+  }
+  throw Error(ErrorKind::kInternal, "the OpenGL driver reports an error " + name);
+}
+
 GLenum stageOf(std::string_view name) {
   if (name.ends_with(".vert")) return GL_VERTEX_SHADER;
   if (name.ends_with(".geom")) return GL_GEOMETRY_SHADER;
@@ -90,10 +111,11 @@ void assertCurrent([[maybe_unused]] const Context& context) {
 void Framebuffer::checkComplete(std::string_view what) const {
   const GLenum status = fn().CheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status == GL_FRAMEBUFFER_COMPLETE) return;
-  char code[16];
-  std::snprintf(code, sizeof code, "0x%x", status);
+  const std::string drawing = "drawing into " + std::string(what);
+  // Memory that was missing shows here first.
+  if (const GLenum error = fn().GetError(); error != GL_NO_ERROR) failWith(error, drawing);
   throw Error(ErrorKind::kEnvironment,
-              "the driver cannot draw into " + std::string(what) + " (framebuffer status " + code + ")");
+              "the driver refuses " + drawing + " (framebuffer status " + hexadecimal(status) + ")");
 }
 
 Program::Program(Context& context, std::initializer_list<std::string_view> shaders) : Object(context) {
@@ -117,11 +139,7 @@ void Program::use() const { fn().UseProgram(id()); }
 GLint Program::uniform(const char* name) const { return fn().GetUniformLocation(id(), name); }
 
 void checkErrors(const Functions& fn, std::string_view where) {
-  const GLenum error = fn.GetError();
-  if (error == GL_NO_ERROR) return;
-  char code[16];
-  std::snprintf(code, sizeof code, "0x%x", error);
-  throw Error(ErrorKind::kInternal, "OpenGL error " + std::string(code) + " after " + std::string(where));
+  if (const GLenum error = fn.GetError(); error != GL_NO_ERROR) failWith(error, where);
 }
 
 }  // namespace unshot::gl

@@ -100,7 +100,8 @@ class Program : public Object<ProgramKind> {
   GLint uniform(const char* name) const;
 };
 
-/// Throws Error kInternal where a GL error is pending; `where` says after what.
+/// Throws an Error where a GL error is pending (kEnvironment for memory used up and a lost context, else
+/// kInternal); `where` says after what.
 void checkErrors(const Functions& fn, std::string_view where);
 
 }  // namespace unshot::gl

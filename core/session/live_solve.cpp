@@ -7,6 +7,7 @@
 #include "base/clock.h"
 #include "gl/context.h"
 #include "scene/obj_reader.h"
+#include "session/saved_solve.h"
 
 namespace unshot {
 
@@ -19,7 +20,8 @@ bool isSuperseded(const Command& command, const Command& later) {
          (opens || std::holds_alternative<command::Restart>(later));
 }
 
-LiveSolve::LiveSolve(LiveSolveSetup setup) : setup_(std::move(setup)) {}
+LiveSolve::LiveSolve(LiveSolveSetup setup)
+    : setup_(std::move(setup)), saver_(setup_.kept.path, setup_.kept.every) {}
 
 LiveSolve::~LiveSolve() {
   lane_.reset();  // its GL objects, while the context is still current
@@ -28,14 +30,17 @@ LiveSolve::~LiveSolve() {
 }
 
 void LiveSolve::carryOut(const Command& command) {
+  const bool ran = running();
   try {
     std::visit([this](const auto& c) { perform(c); }, command);
   } catch (const Cancelled&) {
+    abandoned_ = true;
   } catch (...) {
     note(presentError());
   }
   task_.clear();
   ++commands_;
+  if (ran && !running()) offerToSaver();
   settle();
   publish();
 }
@@ -43,6 +48,7 @@ void LiveSolve::carryOut(const Command& command) {
 void LiveSolve::step() {
   takeSteps();
   if (running() && steps_left_ > 0 && --steps_left_ == 0) paused_ = true;
+  offerToSaver();
   settle();
   bool due = true;
   forEachLane([&](const Lane& lane) { due = due && (!lane.running() || lane.due(*setup_.interval)); });
@@ -80,12 +86,18 @@ void LiveSolve::perform(const command::Open& c) {
   announce("reading " + c.scene.filename().string());
   const double began = wallSeconds();
   Scene scene = readObj(c.scene, setup_.given_up);
-  begin(std::move(scene), c.options, wallSeconds() - began, std::nullopt);
+  begin({.scene = std::move(scene),
+         .options = c.options,
+         .load_seconds = wallSeconds() - began,
+         .saved = c.saved});
 }
 
 void LiveSolve::perform(const command::Restart& c) {
   const Lane& lane = present();
-  begin(lane.solve().scene(), c.options, lane.facts().load_seconds, rivalMode());
+  begin({.scene = lane.solve().scene(),
+         .options = c.options,
+         .load_seconds = lane.facts().load_seconds,
+         .rival_mode = rivalMode()});
 }
 
 void LiveSolve::perform(const command::Pause&) {
@@ -111,7 +123,11 @@ void LiveSolve::perform(const command::SetMode& c) {
   const Lane& lane = present();
   SolveOptions options = lane.facts().options;
   options.mode = c.key;
-  begin(lane.solve().scene(), options, lane.facts().load_seconds, rivalMode(), lane.mesh());
+  begin({.scene = lane.solve().scene(),
+         .options = options,
+         .load_seconds = lane.facts().load_seconds,
+         .rival_mode = rivalMode(),
+         .mesh = lane.mesh()});
 }
 
 void LiveSolve::perform(const command::SetError& c) {
@@ -129,12 +145,60 @@ void LiveSolve::perform(const command::ShootAgain&) {
 
 void LiveSolve::perform(const command::Race& c) {
   const Lane& lane = present();
-  begin(lane.solve().scene(), lane.facts().options, lane.facts().load_seconds, c.mode, lane.mesh());
+  begin({.scene = lane.solve().scene(),
+         .options = lane.facts().options,
+         .load_seconds = lane.facts().load_seconds,
+         .rival_mode = c.mode,
+         .mesh = lane.mesh()});
 }
 
 void LiveSolve::perform(const command::EndRace&) {
   rival_.reset();
   if (!lane_ || !lane_->running()) paused_ = false;
+}
+
+void LiveSolve::perform(const command::Save& c) {
+  // Another scene than the one that was meant.
+  if (abandoned_) {
+    throw Error(ErrorKind::kUsage, "the solve that was to be saved had not begun, and was given up",
+                c.path.string(), "saving it once it is shown");
+  }
+  Lane& lane = present();
+  lane.checkUsable();
+  lane.rest();
+  lane.solve().save(c.path);
+  ++saves_;
+  saved_as_ = c.path;
+}
+
+/// Of another scene, opened later, nothing goes into the file.
+bool LiveSolve::isKept() const {
+  return lane_ && !setup_.kept.path.empty() && lane_->facts().scene_path == setup_.kept.scene;
+}
+
+void LiveSolve::offerToSaver() {
+  const bool at_rest = !running();
+  if (!isKept() || lane_->broken() || !saver_.due(at_rest)) return;
+  lane_->rest();
+  if (std::optional<Error> failed = saver_.offer(lane_->solve(), at_rest))
+    note(Error(failed->kind(), failed->what(), failed->where(),
+               failed->advice() + "; the solve goes on, and is saved again later"));
+}
+
+void LiveSolve::saveKept() {
+  if (!isKept()) return;
+  try {
+    lane_->checkUsable();
+    saver_.save(lane_->solve());
+  } catch (...) {
+    note(presentError());
+  }
+}
+
+void LiveSolve::finish() {
+  if (!isKept()) return;
+  saveKept();
+  publish();
 }
 
 SessionPhase LiveSolve::phase() const {
@@ -163,35 +227,39 @@ std::optional<std::string> LiveSolve::rivalMode() const {
 }
 
 std::unique_ptr<Lane> LiveSolve::makeLane(Scene scene, const SolveOptions& own, const SolveOptions& asked,
-                                          double load_seconds) {
+                                          double load_seconds, std::shared_ptr<SavedSolve> saved) {
   auto solve = std::make_unique<Solve>(
-      std::move(scene), own, [this]() -> gl::Context& { return context(); }, setup_.given_up);
+      std::move(scene), own, [this]() -> gl::Context& { return context(); }, setup_.given_up,
+      std::move(saved));
   setup_.given_up.check();
   return std::make_unique<Lane>(std::move(solve), asked, load_seconds,
                                 [this](Error problem) { note(std::move(problem)); });
 }
 
-// What is new takes the old one's place only when it stands and has its first snapshots. `mesh`: where it is
-// at hand.
-void LiveSolve::begin(Scene scene, const SolveOptions& options, double load_seconds,
-                      const std::optional<std::string>& rival_mode, std::shared_ptr<const Mesh> mesh) {
+// What is new takes the old one's place only when it stands and has its first snapshots.
+void LiveSolve::begin(Start start) {
   setup_.given_up.check();
-  announce("meshing " + scene.path.filename().string());
-  SolveOptions own = options;
-  own.mesh = std::move(mesh);
+  announce("meshing " + start.scene.path.filename().string());
+  const bool another_scene = isKept() && start.scene.path != setup_.kept.scene;
+  SolveOptions own = start.options, asked = start.options;
+  own.mesh = std::move(start.mesh);
+  if (start.saved) {
+    asked = start.saved->options(asked);
+    asked.mesh.reset();  // a restart cuts it as it is asked to then
+  }
   std::unique_ptr<Lane> fresh, rival;
-  if (!rival_mode) {
-    fresh = makeLane(std::move(scene), own, options, load_seconds);
+  if (!start.rival_mode) {
+    fresh = makeLane(std::move(start.scene), own, asked, start.load_seconds, std::move(start.saved));
   } else {
     own.sharers = 2;
-    fresh = makeLane(scene, own, options, load_seconds);
-    SolveOptions asked = options;
-    own.mode = asked.mode = *rival_mode;
+    fresh = makeLane(start.scene, own, asked, start.load_seconds);
+    own.mode = asked.mode = *start.rival_mode;
     own.mesh = fresh->mesh();
-    rival = makeLane(std::move(scene), own, asked, load_seconds);
+    rival = makeLane(std::move(start.scene), own, asked, start.load_seconds);
     fresh->rest();
     rival->rest();
   }
+  if (another_scene) saveKept();
   lane_ = std::move(fresh);
   rival_ = std::move(rival);
   paused_ = false;
@@ -200,6 +268,7 @@ void LiveSolve::begin(Scene scene, const SolveOptions& options, double load_seco
 }
 
 void LiveSolve::announce(const std::string& task) {
+  abandoned_ = false;
   forEachLane([](Lane& lane) { lane.rest(); });
   task_ = task;
   publish();
@@ -235,6 +304,8 @@ void LiveSolve::publish() {
   state->task = task_;
   state->problems = problems_;
   state->problem = problem_;
+  state->saves = saves_;
+  state->saved_as = saved_as_;
   setup_.publish(std::move(state));
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "session/lane.h"
+#include "session/saver.h"
 #include "session/session.h"
 
 namespace unshot {
@@ -21,6 +22,7 @@ namespace command {
 struct Open {
   std::filesystem::path scene;
   SolveOptions options;
+  std::shared_ptr<SavedSolve> saved;
 };
 struct Restart {
   SolveOptions options;
@@ -42,11 +44,14 @@ struct Race {
   std::string mode;
 };
 struct EndRace {};
+struct Save {
+  std::filesystem::path path;
+};
 }  // namespace command
 
 using Command = std::variant<command::Open, command::Restart, command::Pause, command::Resume, command::Step,
                              command::SetMode, command::SetError, command::CompleteBounces,
-                             command::ShootAgain, command::Race, command::EndRace>;
+                             command::ShootAgain, command::Race, command::EndRace, command::Save>;
 
 /// Whether loading for `command` is in vain, since `later` loads another scene or the same one again.
 bool isSuperseded(const Command& command, const Command& later);
@@ -57,6 +62,7 @@ struct LiveSolveSetup {
   std::function<void(std::shared_ptr<const SessionState>)> publish;  ///< takes each new state
   CancelToken given_up;                                              ///< loading ends where it asks for that
   const std::atomic<double>* interval = nullptr;                     ///< of publication [s]
+  KeptSolve kept;                                                    ///< as SessionSetup::kept
 };
 
 /// Made, used and destroyed on one thread; the GL context is current there from its first need to the end.
@@ -78,6 +84,8 @@ class LiveSolve {
   bool hasSpareWork() const;
   /// Light by bounces, then errors estimated from more places; publishes where there is news.
   void spareWork();
+  /// What is left to do before the end: saves the solve that is kept.
+  void finish();
 
  private:
   void perform(const command::Open& c);
@@ -91,15 +99,27 @@ class LiveSolve {
   void perform(const command::ShootAgain&);
   void perform(const command::Race& c);
   void perform(const command::EndRace&);
+  void perform(const command::Save& c);
 
   SessionPhase phase() const;
   gl::Context& context();
   Lane& present();
   std::optional<std::string> rivalMode() const;
+  /// How a solve, or a race of two, begins.
+  struct Start {
+    Scene scene;
+    SolveOptions options;
+    double load_seconds = 0;
+    std::optional<std::string> rival_mode = std::nullopt;
+    std::shared_ptr<const Mesh> mesh = nullptr;   ///< where it is at hand
+    std::shared_ptr<SavedSolve> saved = nullptr;  ///< to go on from
+  };
   std::unique_ptr<Lane> makeLane(Scene scene, const SolveOptions& own, const SolveOptions& asked,
-                                 double load_seconds);
-  void begin(Scene scene, const SolveOptions& options, double load_seconds,
-             const std::optional<std::string>& rival_mode, std::shared_ptr<const Mesh> mesh = nullptr);
+                                 double load_seconds, std::shared_ptr<SavedSolve> saved = nullptr);
+  void begin(Start start);
+  bool isKept() const;
+  void offerToSaver();
+  void saveKept();
   void takeSteps();
   void announce(const std::string& task);
   void settle();
@@ -125,9 +145,13 @@ class LiveSolve {
   bool paused_ = false;
   std::uint64_t steps_left_ = 0;  // before a pause; 0: no pause is due
   std::string task_;              // not empty while loading
+  bool abandoned_ = false;        // what was to be loaded last was given up
+  Saver saver_;
 
   std::uint64_t version_ = 0, epoch_ = 0, commands_ = 0, problems_ = 0;
   std::optional<Error> problem_;
+  std::uint64_t saves_ = 0;
+  std::filesystem::path saved_as_;
 };
 
 }  // namespace unshot

@@ -30,13 +30,15 @@ struct Session::Impl {
   explicit Impl(SessionSetup setup_in) : setup(std::move(setup_in)) {
     thread = std::thread([this] { run(); });
   }
-  ~Impl() {
+  ~Impl() { close(); }
+
+  void close() {
     {
       const std::lock_guard lock(mutex);
       closing = given_up = true;
     }
     arrived.notify_all();
-    thread.join();
+    if (thread.joinable()) thread.join();
   }
 
   void send(Command command) {
@@ -58,6 +60,7 @@ struct Session::Impl {
   }
 
   void run();
+  void finish(LiveSolve& live);
   std::optional<Command> next(bool idle);
   void publish(std::shared_ptr<const SessionState> state);
 };
@@ -66,7 +69,8 @@ void Session::Impl::run() {
   LiveSolve live({.gl = setup.gl,
                   .publish = [this](std::shared_ptr<const SessionState> state) { publish(std::move(state)); },
                   .given_up = CancelToken(given_up),
-                  .interval = &interval});
+                  .interval = &interval,
+                  .kept = setup.kept});
   while (!closing) {
     // Only where there is no memory for as much as a state: the next one says what became of the session.
     try {
@@ -79,6 +83,22 @@ void Session::Impl::run() {
     } catch (const std::bad_alloc&) {
     }
   }
+  try {
+    finish(live);
+  } catch (const std::bad_alloc&) {
+  }
+}
+
+// What was to be saved is saved, and what comes before it done; loading is given up at once.
+void Session::Impl::finish(LiveSolve& live) {
+  std::deque<Command> left;
+  {
+    const std::lock_guard lock(mutex);
+    left.swap(queue);
+  }
+  while (!left.empty() && !std::holds_alternative<command::Save>(left.back())) left.pop_back();
+  for (const Command& command : left) live.carryOut(command);
+  live.finish();
 }
 
 // The next command, waited for where the thread is idle or held; none where there is none yet, or where the
@@ -107,12 +127,14 @@ Session::Session(SessionSetup setup) : impl_(std::make_unique<Impl>(std::move(se
 
 Session::~Session() = default;
 
+void Session::close() { impl_->close(); }
+
 Session::Hold::Hold(Session& session) : session_(session) { session_.impl_->hold(1); }
 
 Session::Hold::~Hold() { session_.impl_->hold(-1); }
 
-void Session::open(std::filesystem::path scene, SolveOptions options) {
-  impl_->send(command::Open{std::move(scene), std::move(options)});
+void Session::open(std::filesystem::path scene, SolveOptions options, std::shared_ptr<SavedSolve> saved) {
+  impl_->send(command::Open{std::move(scene), std::move(options), std::move(saved)});
 }
 
 void Session::restart(SolveOptions options) { impl_->send(command::Restart{std::move(options)}); }
@@ -134,6 +156,8 @@ void Session::completeBounces() { impl_->send(command::CompleteBounces{}); }
 void Session::race(std::string mode) { impl_->send(command::Race{std::move(mode)}); }
 
 void Session::endRace() { impl_->send(command::EndRace{}); }
+
+void Session::save(std::filesystem::path path) { impl_->send(command::Save{std::move(path)}); }
 
 std::uint64_t Session::sent() const {
   const std::lock_guard lock(impl_->mutex);

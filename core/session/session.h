@@ -68,9 +68,18 @@ struct SessionState : LaneState {
   std::optional<LaneState> rival;  ///< in a race: the other solve
   std::uint64_t problems = 0;      ///< how many commands or solves have failed so far
   std::optional<Error> problem;    ///< the last failure
+  std::uint64_t saves = 0;         ///< how often save() has written a file
+  std::filesystem::path saved_as;  ///< the last of them
 
   /// Whether there are more news to wait for while the session rests.
   bool spareWork() const { return spare_work || (rival && rival->spare_work); }
+};
+
+/// A solve that is saved again and again, so that little is lost however the program ends.
+struct KeptSolve {
+  std::filesystem::path path;   ///< empty: none is kept
+  double every = 60;            ///< seconds between two saves at least, as class Saver has it
+  std::filesystem::path scene;  ///< as open() names it; solves of other scenes are not saved there
 };
 
 struct SessionSetup {
@@ -80,16 +89,24 @@ struct SessionSetup {
   /// Called on the solver thread after each publication; must not throw. It may call all of the session but
   /// its destructor.
   std::function<void()> wake;
+  /// Saved while it runs, when another scene takes its place, and when the session closes. What cannot be
+  /// saved is published as `problem`.
+  KeptSolve kept = {};
 };
 
-/// All member functions may be called from any thread and return at once; only the destructor waits, for one
-/// step at most: loading is given up.
+/// All member functions may be called from any thread and return at once; only close() and the destructor
+/// wait.
 class Session {
  public:
   explicit Session(SessionSetup setup);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
+
+  /// Ends the solver thread, as the destructor does; latest() then tells what became of it. Waits for one
+  /// step at most, and for what is still to be saved; loading is given up. Nothing but latest() and sent()
+  /// may be called afterwards.
+  void close();
 
   /// While one lives no step is taken, though commands are carried out: what is sent meanwhile happens
   /// without a shot in between. A step under way ends.
@@ -111,7 +128,8 @@ class Session {
   /// Reads a scene and solves it. The scene before goes on being shown, and is gone only when this one is
   /// ready. One that is still being loaded is given up for this one, and never shown. The new solve runs from
   /// the first moment; a pause sent after this command finds it before its first shot.
-  void open(std::filesystem::path scene, SolveOptions options);
+  /// Where `saved` is given it goes on from there, as Solve::Solve describes it; it is used up.
+  void open(std::filesystem::path scene, SolveOptions options, std::shared_ptr<SavedSolve> saved = nullptr);
   /// The present scene as it was read, from the start, with these options; open() reads the file again.
   /// Another restart that is not ready is given up.
   void restart(SolveOptions options);
@@ -137,6 +155,10 @@ class Session {
   void race(std::string mode);
   /// Leaves the other solve; the first goes on.
   void endRace();
+
+  /// Saves the present solve (in a race the first one) as Solve::save does; it goes on. What is sent before
+  /// the session closes is carried out.
+  void save(std::filesystem::path path);
 
   /// How many commands were sent so far; they are carried out when latest()->commands says the same.
   std::uint64_t sent() const;

@@ -66,7 +66,9 @@ TEST(Save, AKilledSolveGoesOnFromItsLastWholeFile) {
     words = k == 0 ? with(words, kFineMesh) : with(words, {"--resume", "s.unshot", "--error", "1e-4"});
     ProgramRun run(folder.path(), words);
     // From the moment that the first file is there: it may end at any time.
-    if (k == 0) ASSERT_TRUE(eventually([&] { return folder.has("s.unshot") || !run.running(); }));
+    if (k == 0) {
+      ASSERT_TRUE(eventually([&] { return folder.has("s.unshot") || !run.running(); }));
+    }
     const auto wait = static_cast<long>(5e7 + 1e8 * unitInterval(state = mixBits(state)));
     const timespec moment{0, wait};
     ::nanosleep(&moment, nullptr);
@@ -129,6 +131,65 @@ TEST(Save, MemoryThatIsUsedUpEndsTheSolveWithWhatItHas) {
       runProgram(folder, {"solve", "room.obj", "--resume", "s.unshot", "--keep", "50", "--max-shots", "10"},
                  {400'000'000});
   EXPECT_EQ(resumed.code, 5) << resumed.err;
+}
+
+/// A folder below `folder` that may be entered and read, not written.
+std::filesystem::path readOnlyFolder(const TempFolder& folder) {
+  namespace fs = std::filesystem;
+  fs::permissions(folder.path(), fs::perms(0755));
+  const fs::path closed = folder.path() / "closed";
+  fs::create_directory(closed);
+  std::ofstream(closed / "old") << "old";
+  fs::permissions(closed, fs::perms(0555));
+  return closed;
+}
+
+// Said before any work is done; of other files that were asked for none is written either.
+TEST(Save, AFolderThatMayNotBeWrittenIsSaidAtOnce) {
+  const TempFolder folder;
+  writeRoom(folder, boxObj());
+  const std::filesystem::path closed = readOnlyFolder(folder);
+  for (const char* option : {"--save", "--png", "--report", "--ply", "--hdr"}) {
+    for (const char* file : {"closed/new", "closed/old"}) {
+      SCOPED_TRACE(std::string(option) + " " + file);
+      const ProgramResult result =
+          runProgram(folder, with({"solve", "room.obj", option, file}, kFineMesh), {.permissions = true});
+      EXPECT_EQ(result.code, 4);
+      EXPECT_EQ(result.err, "unshot: " + std::string(file) +
+                                ": cannot be written: Permission denied\n  try: a folder that you may write "
+                                "to\n");
+      EXPECT_EQ(result.out, "");
+    }
+  }
+  EXPECT_EQ(folder.names(), (std::set<std::string>{"room.mtl", "room.obj", "closed"}));
+  EXPECT_EQ(folder.read("closed/old"), "old");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(closed), {}), 1);
+  std::filesystem::permissions(closed, std::filesystem::perms(0755));  // to be removed by anybody
+}
+
+// The same while it solves: the solve goes on, what was saved stays, and the other files are written.
+TEST(Save, AFolderThatIsClosedMeanwhileCostsNoOtherFile) {
+  const TempFolder folder;
+  writeRoom(folder, boxObj());
+  const std::filesystem::path closed = readOnlyFolder(folder), open = folder.path() / "open";
+  namespace fs = std::filesystem;
+  fs::create_directory(open);
+  for (const fs::path& path : {closed, open}) fs::permissions(path, fs::perms(0777));
+  ProgramRun run(
+      folder.path(),
+      with({"solve", "room.obj", "--save", "closed/s.unshot", "--save-every", "0.01", "--ply", "open/a.ply"},
+           kFineMesh),
+      {.permissions = true});
+  ASSERT_TRUE(eventually([&] { return folder.has("closed/s.unshot") || !run.running(); }));
+  fs::permissions(closed, fs::perms(0555));
+  const ProgramResult result = run.wait();
+  EXPECT_EQ(result.code, 4) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("closed/s.unshot: cannot be written: Permission denied"));
+  EXPECT_TRUE(folder.has("open/a.ply"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(closed), {}), 2) << "half a file is left";
+  fs::permissions(closed, fs::perms(0755));
+  EXPECT_EQ(runProgram(folder, {"solve", "room.obj", "--resume", "closed/s.unshot", "--max-shots", "1"}).code,
+            5);
 }
 
 TEST(Save, AFileThatIsNoSavedSolveIsRefused) {

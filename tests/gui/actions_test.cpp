@@ -40,7 +40,7 @@ TEST(Actions, KeysAndShortcutsAreUnique) {
     EXPECT_EQ(actionOfKey(action.shortcut.key, action.shortcut.ctrl), &action);
     EXPECT_EQ(
         std::string_view("WASDQE").find(static_cast<char>(action.shortcut.key)) != std::string_view::npos,
-        action.shortcut.ctrl && action.key == "quit")
+        action.shortcut.ctrl && (action.key == "quit" || action.key == "save-solve"))
         << action.key << " has a key of flying";
   }
   EXPECT_EQ(actionOfKey('Z', false), nullptr);
@@ -79,6 +79,7 @@ const std::map<std::string_view, std::string>& validArguments() {
       {"camera", "278,273,-800,278,273,0,39"},
       {"panel", "off"},
       {"help", "on"},
+      {"notes", "on"},
       {"plot", "rows"},
       {"bounces", "2"},
       {"reference", "solution.ply"},
@@ -86,6 +87,7 @@ const std::map<std::string_view, std::string>& validArguments() {
       {"scale", "1.5"},
       {"screenshot", "with.png"},
       {"screenshot-scene", "without.png"},
+      {"save-solve", "with.unshot"},
   };
   return arguments;
 }
@@ -188,9 +190,10 @@ TEST_F(EveryAction, PerformsOnALiveViewer) {
   EXPECT_FALSE(live->closing());
   live->perform("quit");
   EXPECT_TRUE(live->closing());
-  EXPECT_EQ(folder_.names(),
-            (std::set<std::string>{"with.png", "without.png", "solution.ply", "unshot-two_patches-001.png",
-                                   "unshot-two_patches-002.png"}));
+  EXPECT_EQ(
+      folder_.names(),
+      (std::set<std::string>{"with.png", "without.png", "solution.ply", "unshot-two_patches-001.png",
+                             "unshot-two_patches-002.png", "with.unshot", "unshot-two_patches-001.unshot"}));
 }
 
 TEST_F(EveryAction, WithoutASceneNoneCrashes) {

@@ -7,6 +7,7 @@
 #include "gui/support/program_pictures.h"
 #include "render/display_modes.h"
 #include "solver/modes.h"
+#include "support/scenes.h"
 
 namespace unshot {
 namespace {
@@ -20,6 +21,7 @@ using testing_support::runProgram;
 using testing_support::runScript;
 using testing_support::showsSomething;
 using testing_support::TempFolder;
+using testing_support::writeRoom;
 
 const std::string kCornellBox = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
 const std::string kTwoPatches = std::string(UNSHOT_SOURCE_DIR) + "/assets/two_patches.obj";
@@ -269,6 +271,26 @@ TEST(Program, ASceneWithoutLightSaysSo) {
   };
   EXPECT_LT(brightest(scene), 0.05f) << "there is light";
   EXPECT_GT(brightest(window), 0.3f) << "no text over the scene";
+}
+
+// A heading in a colour of its own, above all others; the list opens below it.
+TEST(Program, WarningsAreSeenWithoutScrolling) {
+  const TempFolder folder;
+  writeRoom(folder, "usemtl nowhere\nf 1 2 6\n");
+  const ProgramResult run =
+      runScript(folder, "wait converged\nplot shots\nscreenshot closed.png\nnotes on\nscreenshot open.png\n",
+                {"room.obj", "--elements", "100", "--size", "1280x720"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  const auto colourAt = [](const ImageF& image, int x, int y) {
+    const std::size_t pixel = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                                   static_cast<std::size_t>(x));
+    return std::array<float, 3>{image.rgb[pixel], image.rgb[pixel + 1], image.rgb[pixel + 2]};
+  };
+  const ImageF closed = picture(folder, "closed.png"), open = picture(folder, "open.png");
+  const auto heading = colourAt(closed, 1240, 98);
+  EXPECT_GT(heading[0], 3 * heading[2]) << "no warning colour";
+  EXPECT_EQ(heading, colourAt(open, 1240, 98));
+  EXPECT_NE(colourAt(closed, 1240, 124), colourAt(open, 1240, 124)) << "the next heading has not moved";
 }
 
 }  // namespace

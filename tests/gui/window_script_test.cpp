@@ -134,8 +134,9 @@ class PanelChoices : public testing::Test {
 TEST_F(PanelChoices, RowsOfEveryTable) {
   ASSERT_TRUE(run_.hasTitle("cornell_box \u2013 Unshot"));
   chooseSome(kMode, 1, iterationModes().size());
-  chooseSome(kMethod, 1, formFactorMethods().size());
   chooseSome(kShow, 0, displayModes().size());
+  // Last: of some there is a warning, for which the rows make room.
+  chooseSome(kMethod, 1, formFactorMethods().size());
   choose(kScene, 4);
   EXPECT_TRUE(run_.hasTitle("two_rooms \u2013 Unshot")) << run_.title();
   run_.key("ctrl+q");

@@ -197,6 +197,17 @@ TEST(NoWindow, WithoutADisplayItNamesTheCommandThatNeedsNone) {
   ::unsetenv("DISPLAY");
 }
 
+TEST(NoWindow, AnOpenGlThatIsTooOldIsNamed) {
+  const Screen screen;
+  const TempFolder folder;
+  ::setenv("MESA_GL_VERSION_OVERRIDE", "2.1", 1);
+  const ProgramResult result = runProgram(folder, {"view"});
+  ::unsetenv("MESA_GL_VERSION_OVERRIDE");
+  EXPECT_EQ(result.code, 4);
+  EXPECT_THAT(result.err, HasSubstr("this display gives no window with OpenGL 3.3: "));
+  EXPECT_THAT(result.err, HasSubstr("unshot solve "));
+}
+
 TEST(NoGlx, OpensThroughEgl) {
   const Screen screen({"-extension", "GLX"});
   WindowRun run({"--size", "400x300", "--elements", "300"});

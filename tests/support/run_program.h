@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fcntl.h>
+#include <grp.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -24,6 +25,9 @@ struct ProgramResult {
 /// What a run may take of the machine [bytes]; 0: as much as it likes.
 struct ProgramLimits {
   rlim_t memory = 0, file_size = 0;
+  /// Permissions hold for the run, as they do for anybody but root: tests that run as root run it as
+  /// `nobody`.
+  bool permissions = false;
 };
 
 /// A run of UNSHOT_PROGRAM in `folder`.
@@ -45,7 +49,11 @@ class ProgramRun {
       redirect(err.c_str(), O_WRONLY | O_CREAT, STDERR_FILENO);
       limit(RLIMIT_AS, limits.memory);
       limit(RLIMIT_FSIZE, limits.file_size);
-      if (::chdir(folder.c_str()) == 0) ::execv(argv[0], argv.data());
+      // Opened as who runs the tests: others may not reach it by its path.
+      const int program = ::open(argv[0], O_RDONLY | O_CLOEXEC);
+      if (::chdir(folder.c_str()) != 0) ::_exit(124);
+      if (limits.permissions && ::geteuid() == 0) becomeNobody();
+      ::fexecve(program, argv.data(), environ);
       ::_exit(127);
     }
   }
@@ -69,6 +77,10 @@ class ProgramRun {
   static void limit(__rlimit_resource_t resource, rlim_t bytes) {
     const rlimit both{bytes, bytes};
     if (bytes > 0 && ::setrlimit(resource, &both) != 0) ::_exit(125);
+  }
+  static void becomeNobody() {
+    constexpr uid_t kNobody = 65534;
+    if (::setgroups(0, nullptr) != 0 || ::setgid(kNobody) != 0 || ::setuid(kNobody) != 0) ::_exit(123);
   }
   static void redirect(const char* file, int flags, int target) {
     const int descriptor = ::open(file, flags, 0600);

@@ -1,10 +1,8 @@
-#include "cli/saver.h"
+#include "session/saver.h"
 
 #include <algorithm>
-#include <iostream>
 
 #include "base/clock.h"
-#include "base/error.h"
 
 namespace unshot {
 namespace {
@@ -17,22 +15,27 @@ constexpr double kRest = 20;
 Saver::Saver(std::filesystem::path path, double every)
     : path_(std::move(path)), every_(every), next_(wallSeconds() + every) {}
 
-void Saver::offer(const Solve& solve) {
-  if (path_.empty() || wallSeconds() < next_) return;
+bool Saver::due(bool at_rest) const {
+  return !path_.empty() && wallSeconds() >= (at_rest ? next_at_rest_ : next_);
+}
+
+std::optional<Error> Saver::offer(const Solve& solve, bool at_rest) {
+  if (!due(at_rest)) return std::nullopt;
   try {
     save(solve);
   } catch (const Error& error) {
-    std::cerr << "unshot: " << error.fullText() << "\n  the solve goes on, and is saved again later"
-              << std::endl;
-    next_ = wallSeconds() + every_;
+    next_ = next_at_rest_ = wallSeconds() + every_;
+    return error;
   }
+  return std::nullopt;
 }
 
 void Saver::save(const Solve& solve) {
   const double began = wallSeconds();
   solve.save(path_);
   const double ended = wallSeconds();
-  next_ = ended + std::max(every_, kRest * (ended - began));
+  next_at_rest_ = ended + kRest * (ended - began);
+  next_ = std::max(ended + every_, next_at_rest_);
 }
 
 }  // namespace unshot

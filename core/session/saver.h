@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
+#include "base/error.h"
 #include "session/solve.h"
 
 namespace unshot {
@@ -12,15 +14,18 @@ class Saver {
   /// An empty `path`: nothing is ever saved. `every`: seconds between two saves at least.
   Saver(std::filesystem::path path, double every);
 
-  /// Saves where it is time. Where that fails a line says so, and it is tried again later: the solve goes on.
-  void offer(const Solve& solve);
+  /// Whether it is time: for a solve that has come to rest at once, unless saving would take more than a
+  /// twentieth of the time.
+  bool due(bool at_rest = false) const;
+  /// Saves where it is time. What fails is returned, and it is tried again later: the solve goes on.
+  std::optional<Error> offer(const Solve& solve, bool at_rest = false);
   /// Saves. Throws Error (kEnvironment).
   void save(const Solve& solve);
 
  private:
   std::filesystem::path path_;
   double every_;
-  double next_;  // wall time
+  double next_, next_at_rest_ = 0;  // wall time
 };
 
 }  // namespace unshot
