@@ -12,7 +12,7 @@
 #include "exit_codes.h"
 #include "report/report_json.h"
 #include "scene/obj_reader.h"
-#include "session/plan.h"
+#include "session/preparation.h"
 #include "session/scene_checks.h"
 
 namespace unshot {

@@ -11,6 +11,7 @@
 #include "gl/context.h"
 #include "render/display_modes.h"
 #include "session/scene_checks.h"
+#include "session/scene_plan.h"
 #include "solver/modes.h"
 #include "viewer/actions.h"
 #include "viewer/glfw_context.h"
@@ -62,6 +63,7 @@ int runList() {
   printTable("Display modes (--display)", displayModes(), "", available);
   printTable("Exporters", exporters(), "--", available);
   printTable("Scene checks (unshot check)", sceneChecks(), "", available);
+  printTable("What the plan may leave out (--do)", planRows(), "", available);
   std::vector<gl::Provider> providers(gl::providers().begin(), gl::providers().end());
   providers.push_back(glfwProvider());
   printTable("OpenGL providers (--gl)", std::span<const gl::Provider>(providers), "",

@@ -31,6 +31,7 @@ Check emitText() {
 SolverArguments::SolverArguments(Command& command, SolverUse use) {
   addSolver(command, use);
   addMesh(command);
+  addPlan(command);
   if (use != SolverUse::kReport) addLimits(command);
   if (use == SolverUse::kSolve) addBounces(command);
 }
@@ -89,6 +90,21 @@ void SolverArguments::addMesh(Command& command) {
   command.exclude("--element-size", "--max-elements");
 }
 
+void SolverArguments::addPlan(Command& command) {
+  command.group("What the plan leaves out (unshot check SCENE.obj)");
+  command.add("--do", do_, "KEYS", "Do this all the same: a list with commas of " + keysOf(planRows(), false),
+              [](const std::string& list) -> std::string {
+                try {
+                  doAnyway(list);
+                } catch (const Error& error) {
+                  return error.what();
+                }
+                return {};
+              });
+  command.flag("--do-all", do_all_, "Do all of it");
+  command.exclude("--do", "--do-all");
+}
+
 void SolverArguments::addLimits(Command& command) {
   command.group("When to stop");
   command.add("--error", error_, "X",
@@ -111,6 +127,8 @@ SolveOptions SolverArguments::options() const {
   SolveOptions options = options_;
   options.emit_front_only = emit_ == "front";
   if (error_) options.error = *error_;
+  if (do_all_) options.do_anyway = doAll();
+  if (!do_.empty()) options.do_anyway = doAnyway(do_);
   if (!sky_.empty()) options.sky = parseSky(sky_);
   if (kept_mb_) options.kept_bytes = static_cast<std::size_t>(static_cast<double>(*kept_mb_) * kBytesPerMb);
   return options;

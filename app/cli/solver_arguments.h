@@ -34,11 +34,13 @@ class SolverArguments {
  private:
   void addSolver(Command& command, SolverUse use);
   void addMesh(Command& command);
+  void addPlan(Command& command);
   void addLimits(Command& command);
   void addBounces(Command& command);
 
   SolveOptions options_;
-  std::string gl_ = "auto", shader_dir_, emit_ = "both", sky_;
+  std::string gl_ = "auto", shader_dir_, emit_ = "both", sky_, do_;
+  bool do_all_ = false;
   std::optional<std::uint64_t> kept_mb_;
   std::optional<double> error_;
 };

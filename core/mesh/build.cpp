@@ -66,7 +66,7 @@ std::vector<char> sidesToKeep(const MeshOptions& options, const SurfaceTopology&
                               const CancelToken& cancel) {
   const std::size_t count = 2 * mesh.surfaces.size();
   std::vector<char> keep(count, 1);
-  if (options.sky) return keep;
+  if (options.sky || options.all_sides) return keep;
   const Fronts fronts(mesh, cancel);
   for (std::size_t k = 0; k < count; ++k) {
     cancel.check();
@@ -278,7 +278,7 @@ Mesh buildMesh(const Scene& scene, const MeshOptions& options, const CancelToken
   mesh.bounds_min = scene.bounds_min;
   mesh.bounds_max = scene.bounds_max;
   mesh.materials = scene.materials;
-  SurfaceTopology topology = makeSurfaces(scene, weld(scene, cancel), mesh, cancel);
+  SurfaceTopology topology = makeSurfaces(scene, weld(scene, cancel), options.join_polygons, mesh, cancel);
   mesh.smooth_pairs = std::move(topology.smooth_pairs);
   if (mesh.surfaces.empty()) {
     throw Error(ErrorKind::kInput, "no face of the scene has any area", scene.path.string(),

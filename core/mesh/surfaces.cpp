@@ -37,9 +37,11 @@ Plane planeOf(const WeldedScene& welded, std::span<const std::uint32_t> outline)
 
 class SurfaceMaker {
  public:
-  SurfaceMaker(const Scene& scene, const WeldedScene& welded, Mesh& mesh, const CancelToken& cancel)
+  SurfaceMaker(const Scene& scene, const WeldedScene& welded, bool join, Mesh& mesh,
+               const CancelToken& cancel)
       : scene_(scene),
         welded_(welded),
+        join_(join),
         mesh_(mesh),
         cancel_(cancel),
         surface_of_(scene.polygons.size(), kNone) {}
@@ -93,7 +95,7 @@ class SurfaceMaker {
   }
 
   bool joins(std::uint32_t seed, std::uint32_t polygon) const {
-    if (scene_.polygons[polygon].material != scene_.polygons[seed].material) return false;
+    if (!join_ || scene_.polygons[polygon].material != scene_.polygons[seed].material) return false;
     if (planes_[polygon].area <= 0 || glm::dot(planes_[polygon].normal, planes_[seed].normal) < 0.99)
       return false;
     const double tolerance = std::max(weldDistance(scene_), 1e-5 * std::sqrt(planes_[polygon].area));
@@ -263,6 +265,7 @@ class SurfaceMaker {
 
   const Scene& scene_;
   const WeldedScene& welded_;
+  bool join_;
   Mesh& mesh_;
   const CancelToken& cancel_;
   std::vector<Plane> planes_;
@@ -274,9 +277,9 @@ class SurfaceMaker {
 
 }  // namespace
 
-SurfaceTopology makeSurfaces(const Scene& scene, const WeldedScene& welded, Mesh& mesh,
+SurfaceTopology makeSurfaces(const Scene& scene, const WeldedScene& welded, bool join, Mesh& mesh,
                              const CancelToken& cancel) {
-  return SurfaceMaker(scene, welded, mesh, cancel).run();
+  return SurfaceMaker(scene, welded, join, mesh, cancel).run();
 }
 
 }  // namespace unshot

@@ -23,8 +23,8 @@ struct SurfaceTopology {
 
 /// Fills mesh.surfaces (material, chart, area, triangles), mesh.triangles and mesh.positions.
 /// Polygons are joined only across edges that exactly two polygons share: where a third stands on the edge (a
-/// wall on a floor), light on one side is not light on the other.
-SurfaceTopology makeSurfaces(const Scene& scene, const WeldedScene& welded, Mesh& mesh,
+/// wall on a floor), light on one side is not light on the other. Not at all where not to `join`.
+SurfaceTopology makeSurfaces(const Scene& scene, const WeldedScene& welded, bool join, Mesh& mesh,
                              const CancelToken& cancel = {});
 
 }  // namespace unshot

@@ -34,7 +34,11 @@ Json jsonOf(const Diagnostics& diagnostics) {
 Json jsonOf(const std::vector<PlanDecision>& plan) {
   Json list = Json::array();
   for (const PlanDecision& decision : plan) {
-    list.push_back({{"what", decision.what}, {"why", decision.why}, {"saving", decision.saving}});
+    list.push_back({{"key", decision.key},
+                    {"what", decision.what},
+                    {"why", decision.why},
+                    {"saving", decision.saving},
+                    {"sure", decision.sure()}});
   }
   return list;
 }

@@ -8,7 +8,7 @@
 #include "formfactor/sky.h"
 #include "gl/context.h"
 #include "scene/scene_hash.h"
-#include "session/plan.h"
+#include "session/preparation.h"
 #include "session/saved_solve.h"
 #include "session/solve_impl.h"
 
@@ -126,7 +126,7 @@ void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl, const C
       method = withSky(std::move(method), mesh->patch_count, std::move(source.column));
     } else {
       sky = glm::dvec3(0.0);
-      plan.push_back({"the sky", "no surface sees any of it", "one source"});
+      diagnostics.push_back({Severity::kNote, "sky-unseen", "no surface sees any of the sky", {}, {}});
     }
   }
   transport = std::make_unique<Transport>(std::move(method), *receivers, std::move(areas),
@@ -265,7 +265,7 @@ void Solve::Impl::advance(std::uint64_t most_shots) {
     // Nothing else in this step: what it has brought is looked at first.
   } else if (drafts.due(*transport, measures.solverBound() <= target())) {
     refine();
-  } else if ((lacksBound() || closureIsUrgent()) && completeColumns()) {
+  } else if (computeBlackColumn() || ((lacksBound() || closureIsUrgent()) && completeColumns())) {
     refined = false;
   } else if (iterate(most_shots)) {
     refined = false;

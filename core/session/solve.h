@@ -15,6 +15,7 @@
 #include "scene/scene.h"
 #include "session/energy.h"
 #include "session/residuals.h"
+#include "session/scene_plan.h"
 #include "session/snapshot.h"
 
 namespace unshot {
@@ -37,6 +38,7 @@ struct SolveOptions {
   /// Without the two, and with form factors at vertices, the mesh follows the light (light_refinement.h), as
   /// fine as `error` asks for and of about so many elements at most.
   std::uint64_t max_elements = 1'000'000;
+  DoAnyway do_anyway;  ///< of what the plan would leave out (scene_plan.h)
   bool emit_front_only = false;
   std::optional<glm::dvec3> sky;  ///< radiosity of the sky [W/m^2]; without, see skyOver (scene/sky.h)
   double error = 0.01;            ///< stop when the bound of the solver's error is below Solve::solverTarget
@@ -59,13 +61,6 @@ struct SolveOptions {
   /// Where given: stands between the solve and its form-factor method, such as to keep columns for another
   /// solve of the same scene and options.
   std::function<std::unique_ptr<FormFactorMethod>(std::unique_ptr<FormFactorMethod>)> wrap_form_factors;
-};
-
-/// Something the solve left out or chose by looking at the scene, with its reason (law 7).
-struct PlanDecision {
-  std::string what;
-  std::string why;
-  std::string saving;
 };
 
 struct HistoryEntry {

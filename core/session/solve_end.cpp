@@ -68,6 +68,18 @@ bool Solve::Impl::completeColumns() {
   return false;
 }
 
+// The column of a black patch, where the plan is not to leave it out.
+bool Solve::Impl::computeBlackColumn() {
+  if (leavesOut(options.do_anyway, plan_keys::kBlackPatches)) return false;
+  for (; next_black < mesh->patch_count; ++next_black) {
+    const bool black = state->reflectance()[next_black] == glm::dvec3(0.0) && !mesh->emits(next_black);
+    if (!black || transport->quality(next_black)) continue;
+    transport->column(next_black++);
+    return true;
+  }
+  return false;
+}
+
 // Whether the error asked for is reached, held against the bound as it is at its sharpest (which may be one
 // per patch where the last was for the total).
 bool Solve::Impl::reached() {

@@ -54,6 +54,7 @@ struct Solve::Impl {
   Measures measures;
   std::vector<HistoryEntry> history;
   bool resting = false, mode_failed = false, room_noted = false, error_noted = false;
+  std::uint32_t next_black = 0;   // black patches before are known
   std::uint32_t next_column = 0;  // all before are known, or nothing arrives there
   // Whether rows are still to be closed (formfactor/closure.h), and what escapes of each receiver's view
   // where that is known; empty: no surface has seen an opening so far.
@@ -97,6 +98,7 @@ struct Solve::Impl {
   void advance(std::uint64_t most_shots);
   bool lacksBound() const;
   bool completeColumns();
+  bool computeBlackColumn();
   void planClosure(const CancelToken& cancel);
   void noteOpening(double escape);
   bool closureIsDue() const;

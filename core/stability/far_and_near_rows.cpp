@@ -108,24 +108,28 @@ void addEnds(Cases& cases) {
                    .make = [] { return litCube(glm::dvec3(1.0), glm::dvec3(1.0)); },
                    .options = evenMesh(96, 1e-3),
                    .no_solution = true});
-  cases.push_back(
-      {.key = "dark-island",
-       .title = "two closed cubes apart, one with a face lit, the other of reflectance 0.8 and without light",
-       .expected = "the lit one as by itself; the other exactly 0",
-       .make = litAndDarkIsland,
-       .options =
-           [] {
-             SolveOptions options = evenMesh(600, 1e-5);
-             options.emit_front_only = true;
-             return options;
-           }(),
-       .measure =
-           [t = &litCubeTruth(0.5)](const Solve& s) {
-             const auto& half = *t;
-             std::vector<Figure> out{exactly(s, "dark", 0)};
-             append(out, litCubeFigures(s, {&half, &half, &half}, glm::dvec3(1.0), 0.01));
-             return out;
-           }});
+  for (const bool solved : {false, true}) {
+    SolveOptions options = evenMesh(600, 1e-5);
+    options.emit_front_only = true;
+    if (solved) options.do_anyway = {std::string(plan_keys::kDarkSides)};
+    cases.push_back(
+        {.key = solved ? "dark-island-solved" : "dark-island",
+         .title = std::string("two closed cubes apart, one with a face lit, the other of reflectance 0.8 and "
+                              "without light") +
+                  (solved ? ", solved all the same" : ""),
+         .expected = std::string("the lit one as by itself; the other ") +
+                     (solved ? "exactly 0" : "without elements"),
+         .make = litAndDarkIsland,
+         .options = options,
+         .measure = [solved, t = &litCubeTruth(0.5)](const Solve& s) {
+           const auto& half = *t;
+           std::vector<Figure> out;
+           if (solved) out.push_back(exactly(s, "dark", 0));
+           if (!solved) out.push_back({"sides, dark", sidesOf(s, ofMaterial("dark")), 0, 0});
+           append(out, litCubeFigures(s, {&half, &half, &half}, glm::dvec3(1.0), 0.01));
+           return out;
+         }});
+  }
   cases.push_back({.key = "all-black",
                    .title = "a block in a room, everything black, everything emits",
                    .expected = "B = E exactly",

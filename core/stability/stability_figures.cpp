@@ -73,6 +73,12 @@ SideFilter frontOf(std::string_view name) {
   };
 }
 
+double sidesOf(const Solve& solve, const SideFilter& filter) {
+  const Mesh& mesh = solve.mesh();
+  return static_cast<double>(std::count_if(mesh.sides.begin(), mesh.sides.end(),
+                                           [&](const Side& side) { return filter(mesh, side); }));
+}
+
 glm::dvec3 meanRadiosity(const Solve& solve, const SideFilter& filter) {
   return meanOf(solve.snapshot(), filter, radiosityOf);
 }

@@ -31,6 +31,8 @@ SideFilter everySide();
 SideFilter ofMaterial(std::string_view name);
 SideFilter frontOf(std::string_view name);
 
+/// How many of the mesh's sides count.
+double sidesOf(const Solve& solve, const SideFilter& filter);
 /// Area means over the elements of the sides that count, of the state as it is shown [W/m^2]; not a number
 /// where there are none.
 glm::dvec3 meanRadiosity(const Solve& solve, const SideFilter& filter);

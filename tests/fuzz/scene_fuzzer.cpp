@@ -16,7 +16,7 @@
 
 #include "base/error.h"
 #include "scene/obj_reader.h"
-#include "session/plan.h"
+#include "session/preparation.h"
 
 namespace unshot {
 namespace {

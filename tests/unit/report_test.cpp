@@ -74,7 +74,7 @@ RunRecord someRecord() {
   record.scene_name = std::string("caf\xe9");  // Latin 1
   record.scene.faces = 6;
   record.diagnostics = {{Severity::kWarning, "code", "message", "scene.obj:3", "advice"}};
-  record.plan = {{"what", "why", "saving"}};
+  record.plan = {{"dark-sides", "what", "why", "saving"}};
   record.mode = "southwell";
   record.form_factors = "hemicube";
   record.counts = {1, 2, 3, 4, 5, 6, 7};

@@ -23,7 +23,7 @@ struct Made {
 
 Made make(const Scene& scene) {
   Made out;
-  out.topology = makeSurfaces(scene, weld(scene), out.mesh);
+  out.topology = makeSurfaces(scene, weld(scene), true, out.mesh);
   return out;
 }
 

@@ -1,5 +1,4 @@
-// What stands before the first shot and needs no OpenGL: the mesh, and the plan, which decides in one place
-// what a solve leaves out because this scene does not need it (law 7).
+// What stands before the first shot and needs no OpenGL: the mesh, the method, checks and plan.
 #pragma once
 
 #include <memory>
@@ -7,12 +6,10 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "session/scene_plan.h"
 #include "session/solve.h"
 
 namespace unshot {
-
-/// The decisions that hold for the scene and its mesh with this form-factor method.
-std::vector<PlanDecision> makePlan(const Scene& scene, const Mesh& mesh, const std::string& form_factors);
 
 struct Preparation {
   std::shared_ptr<const Mesh> mesh;

@@ -1,4 +1,4 @@
-#include "session/plan.h"
+#include "session/preparation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,41 +12,6 @@
 #include "session/scene_checks.h"
 
 namespace unshot {
-
-std::vector<PlanDecision> makePlan(const Scene& scene, const Mesh& mesh, const std::string& form_factors) {
-  std::vector<PlanDecision> out;
-  const std::size_t all_sides = 2 * mesh.surfaces.size(), unlit = all_sides - mesh.sides.size();
-  if (unlit > 0) {
-    double area = -mesh.lit_area;
-    for (const Surface& s : mesh.surfaces) area += 2 * s.area;
-    out.push_back(
-        {"elements on " + std::to_string(unlit) + " of " + std::to_string(all_sides) + " surface sides",
-         "nothing of the scene lies in front of them, so no light can reach them",
-         std::to_string(static_cast<int>(100 * area / (area + mesh.lit_area) + 0.5)) + " % of the elements"});
-  }
-  if (scene.triangle_count > mesh.surfaces.size()) {
-    out.push_back({"borders inside " + std::to_string(mesh.surfaces.size()) + " surfaces",
-                   std::to_string(scene.triangle_count) +
-                       " triangles of the scene join into them: same plane and material",
-                   "elements as fine as the light needs, not as the input was cut"});
-  }
-  if (form_factors == "closed-form" && nothingCanOcclude(mesh)) {
-    out.push_back({"occlusion tests, hemicubes and OpenGL for the solution",
-                   "every surface has the whole scene on one side of its plane, so nothing can stand between "
-                   "two points",
-                   "all pictures; the form factors are exact"});
-  }
-  std::size_t black = 0;
-  for (const std::uint32_t side : mesh.patch_side) {
-    black += mesh.sides[side].reflectance == glm::dvec3(0.0) && mesh.sides[side].emission == glm::dvec3(0.0);
-  }
-  if (black > 0) {
-    out.push_back(
-        {"shots from " + std::to_string(black) + " of " + std::to_string(mesh.patch_count) + " patches",
-         "they are black and send nothing", "their columns"});
-  }
-  return out;
-}
 
 namespace {
 
@@ -75,6 +40,8 @@ MeshOptions meshOptions(const Scene& scene, const SolveOptions& options) {
           .element_size = options.element_size,
           .emit_front_only = options.emit_front_only,
           .paired_cells = false,
+          .all_sides = !leavesOut(options.do_anyway, plan_keys::kDarkSides),
+          .join_polygons = leavesOut(options.do_anyway, plan_keys::kTriangles),
           .sky = skyOver(scene, options.sky) != glm::dvec3(0.0)};
 }
 
@@ -107,15 +74,7 @@ std::shared_ptr<const Mesh> refined(std::shared_ptr<const Mesh> base, const Solv
   refinement.seed = options.seed;
   std::shared_ptr<const Mesh> mesh = refineForLight(std::move(base), refinement, cancel);
   if (!mesh->base) return mesh;
-  // As fine everywhere as one in twenty elements: slivers, which cuts leave, do not count.
-  std::vector<double> areas = mesh->element_area;
-  const auto fine = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 20);
-  std::nth_element(areas.begin(), fine, areas.end());
-  plan.push_back({"fine elements where direct light is even",
-                  "it is what interpolation makes of it there; other light takes the vertices of " +
-                      std::to_string(mesh->base->element_count) + " even elements",
-                  std::to_string(mesh->element_count) + " elements instead of some " +
-                      figureText(mesh->lit_area / *fine)});
+  plan.push_back(withoutEvenLight(*mesh));
   return mesh;
 }
 
@@ -127,32 +86,31 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
   out.form_factors = options.form_factors;
   out.sky = skyOver(scene, options.sky);
   out.mesh = options.mesh;
-  const bool automatic = out.form_factors == "auto", may_follow = !options.mesh && !finenessGiven(options);
-  const bool soonest = options.soonest && scene.triangle_count <= kMostTriangles;
+  const auto leaves = [&](std::string_view key) { return leavesOut(options.do_anyway, key); };
+  const bool automatic = out.form_factors == "auto";
+  const bool may_follow = !options.mesh && !finenessGiven(options) && leaves(plan_keys::kEvenLight);
+  const bool soonest =
+      options.soonest && scene.triangle_count <= kMostTriangles && leaves(plan_keys::kHemicubes);
   bool to_refine = may_follow && (automatic ? soonest : atVertices(out.form_factors));
   if (!out.mesh)
     out.mesh = to_refine ? baseMesh(scene, options, cancel) : uniformMesh(scene, options, cancel);
-  PlanDecision choice;
+  bool by_rays = false;
   if (automatic) {
     const double looks =
         static_cast<double>(out.mesh->vertices.size()) * static_cast<double>(out.mesh->patch_count);
-    const bool rays = soonest && looks <= kMostLooks;
-    out.form_factors = nothingCanOcclude(*out.mesh) ? "closed-form" : rays ? "rays" : "hemicube";
+    const bool closed_form = leaves(plan_keys::kOcclusion) && nothingCanOcclude(*out.mesh);
+    by_rays = !closed_form && soonest && looks <= kMostLooks;
+    out.form_factors = closed_form ? "closed-form" : by_rays ? "rays" : "hemicube";
     const bool follows = may_follow && atVertices(out.form_factors);
     if (follows != to_refine)
       out.mesh = follows ? baseMesh(scene, options, cancel) : uniformMesh(scene, options, cancel);
     to_refine = follows;
-    if (out.form_factors == "rays")
-      choice = {"hemicubes and OpenGL for the solution",
-                "shadow rays see as much from " + std::to_string(out.mesh->vertices.size()) +
-                    " vertices sooner and more exactly",
-                "all pictures"};
   }
   std::vector<PlanDecision> decisions;
-  if (!choice.what.empty()) decisions.push_back(choice);
+  if (by_rays) decisions.push_back(withoutHemicubes(*out.mesh));
   if (to_refine) out.mesh = refined(out.mesh, options, out.form_factors, decisions, cancel);
   const double plan_began = wallSeconds();
-  out.plan = makePlan(scene, *out.mesh, out.form_factors);
+  out.plan = makePlan(scene, *out.mesh, out.form_factors, options.do_anyway);
   out.plan.insert(out.plan.end(), decisions.begin(), decisions.end());
   out.diagnostics = scene.diagnostics;
   out.diagnostics.insert(out.diagnostics.end(), out.mesh->diagnostics.begin(), out.mesh->diagnostics.end());

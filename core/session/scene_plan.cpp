@@ -1,0 +1,122 @@
+#include "session/scene_plan.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "base/text.h"
+#include "formfactor/methods.h"
+
+namespace unshot {
+namespace {
+
+constexpr std::string_view kExact = "exact: the light is the same to rounding";
+
+constexpr PlanRow kRows[] = {
+    {{plan_keys::kDarkSides, "Sides that no light can reach",
+      "elements on them: nothing lies in front of them, or closed surfaces keep all light away"},
+     kExact},
+    {{plan_keys::kTriangles, "Borders inside flat surfaces",
+      "cuts where polygons of one material join in one plane"},
+     "the same surfaces; elements lie elsewhere, within the error asked for"},
+    {{plan_keys::kOcclusion, "Tests of what occludes",
+      "hemicubes and rays where nothing can stand between two points"},
+     "exact: form factors are those of formulas"},
+    {{plan_keys::kHemicubes, "Hemicubes where rays are sooner", "OpenGL for the solution"},
+     "within the error asked for; rays are nearer to the truth"},
+    {{plan_keys::kEvenLight, "Fine elements where light is even",
+      "elements that interpolation between coarser ones would fill with the same light"},
+     "within the error asked for, by estimate"},
+    {{plan_keys::kBlackPatches, "Form factors of black patches", "columns along which nothing is sent"},
+     kExact}};
+
+const PlanRow& rowOf(std::string_view key) { return findChoice(planRows(), key, "decision of the plan"); }
+
+PlanDecision decision(std::string_view key, std::string what, std::string why, std::string saving) {
+  return {std::string(key), std::move(what), std::move(why), std::move(saving)};
+}
+
+}  // namespace
+
+std::span<const PlanRow> planRows() { return kRows; }
+
+std::string_view PlanDecision::sure() const { return rowOf(key).sure; }
+
+DoAnyway doAll() {
+  DoAnyway out;
+  for (const PlanRow& row : kRows) out.emplace_back(row.info.key);
+  return out;
+}
+
+DoAnyway doAnyway(std::string_view list) {
+  DoAnyway out;
+  for (std::size_t first = 0; first <= list.size();) {
+    const std::size_t end = std::min(list.find(',', first), list.size());
+    out.emplace_back(rowOf(list.substr(first, end - first)).info.key);
+    first = end + 1;
+  }
+  return out;
+}
+
+bool leavesOut(const DoAnyway& done, std::string_view key) {
+  return std::find(done.begin(), done.end(), key) == done.end();
+}
+
+std::vector<PlanDecision> makePlan(const Scene& scene, const Mesh& mesh, std::string_view form_factors,
+                                   const DoAnyway& done) {
+  std::vector<PlanDecision> out;
+  const std::size_t all_sides = 2 * mesh.surfaces.size(), unlit = all_sides - mesh.sides.size();
+  if (unlit > 0) {
+    double area = -mesh.lit_area;
+    for (const Surface& s : mesh.surfaces) area += 2 * s.area;
+    out.push_back(decision(
+        plan_keys::kDarkSides,
+        "elements on " + std::to_string(unlit) + " of " + std::to_string(all_sides) + " surface sides",
+        "nothing of the scene lies in front of them, or closed surfaces lie between them and every light",
+        std::to_string(static_cast<int>(100 * area / (area + mesh.lit_area) + 0.5)) + " % of the elements"));
+  }
+  if (scene.triangle_count > mesh.surfaces.size() && leavesOut(done, plan_keys::kTriangles)) {
+    out.push_back(decision(plan_keys::kTriangles,
+                           "borders inside " + std::to_string(mesh.surfaces.size()) + " surfaces",
+                           std::to_string(scene.triangle_count) +
+                               " triangles of the scene join into them: same plane and material",
+                           "elements as fine as the light needs, not as the input was cut"));
+  }
+  if (form_factors == "closed-form" && nothingCanOcclude(mesh)) {
+    out.push_back(decision(plan_keys::kOcclusion, "occlusion tests, hemicubes and OpenGL for the solution",
+                           "every surface has the whole scene on one side of its plane, so nothing can stand "
+                           "between two points",
+                           "all pictures; the form factors are exact"));
+  }
+  std::size_t black = 0;
+  for (const std::uint32_t side : mesh.patch_side) {
+    black += mesh.sides[side].reflectance == glm::dvec3(0.0) && mesh.sides[side].emission == glm::dvec3(0.0);
+  }
+  if (black > 0 && leavesOut(done, plan_keys::kBlackPatches)) {
+    out.push_back(decision(
+        plan_keys::kBlackPatches,
+        "shots from " + std::to_string(black) + " of " + std::to_string(mesh.patch_count) + " patches",
+        "they are black and send nothing", "their columns"));
+  }
+  return out;
+}
+
+PlanDecision withoutHemicubes(const Mesh& mesh) {
+  return decision(plan_keys::kHemicubes, "hemicubes and OpenGL for the solution",
+                  "shadow rays see as much from " + std::to_string(mesh.vertices.size()) +
+                      " vertices sooner and more exactly",
+                  "all pictures");
+}
+
+PlanDecision withoutEvenLight(const Mesh& mesh) {
+  // As fine everywhere as one in twenty elements: slivers, which cuts leave, do not count.
+  std::vector<double> areas = mesh.element_area;
+  const auto fine = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 20);
+  std::nth_element(areas.begin(), fine, areas.end());
+  return decision(
+      plan_keys::kEvenLight, "fine elements where direct light is even",
+      "it is what interpolation makes of it there; other light takes the vertices of " +
+          std::to_string(mesh.base->element_count) + " even elements",
+      std::to_string(mesh.element_count) + " elements instead of some " + figureText(mesh.lit_area / *fine));
+}
+
+}  // namespace unshot

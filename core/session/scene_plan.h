@@ -1,0 +1,61 @@
+// The plan: what a solve leaves out because this scene does not need it (law 7). One place decides, says why,
+// and what it saves; each decision can be switched off by its key.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/choice.h"
+#include "mesh/mesh.h"
+#include "scene/scene.h"
+
+namespace unshot {
+
+/// What may be left out.
+struct PlanRow {
+  ChoiceInfo info;
+  /// How sure it is that the result is the same.
+  std::string_view sure;
+};
+
+std::span<const PlanRow> planRows();
+
+namespace plan_keys {
+inline constexpr std::string_view kDarkSides = "dark-sides";
+inline constexpr std::string_view kTriangles = "triangles";
+inline constexpr std::string_view kOcclusion = "occlusion";
+inline constexpr std::string_view kHemicubes = "hemicubes";
+inline constexpr std::string_view kEvenLight = "even-light";
+inline constexpr std::string_view kBlackPatches = "black-patches";
+}  // namespace plan_keys
+
+/// Keys of what is done all the same.
+using DoAnyway = std::vector<std::string>;
+
+/// All keys.
+DoAnyway doAll();
+/// Keys from a list with commas; throws a usage Error for one that is not in the table.
+DoAnyway doAnyway(std::string_view list);
+bool leavesOut(const DoAnyway& done, std::string_view key);
+
+/// Something that a solve leaves out, with the fact that it was decided by.
+struct PlanDecision {
+  std::string key;  ///< of its row
+  std::string what;
+  std::string why;
+  std::string saving;
+
+  std::string_view sure() const;  ///< of its row
+};
+
+/// Those that hold for the scene and its mesh, with this form-factor method.
+std::vector<PlanDecision> makePlan(const Scene& scene, const Mesh& mesh, std::string_view form_factors,
+                                   const DoAnyway& done);
+/// That rays stand in for hemicubes.
+PlanDecision withoutHemicubes(const Mesh& mesh);
+/// That the mesh follows the light.
+PlanDecision withoutEvenLight(const Mesh& mesh);
+
+}  // namespace unshot

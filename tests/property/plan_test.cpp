@@ -1,0 +1,187 @@
+// What the plan leaves out changes nothing: each decision on and off, on the scenes where it is taken.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <set>
+
+#include "export/probes.h"
+#include "session/scene_plan.h"
+#include "support/random_scene.h"
+#include "support/solving.h"
+#include "support/test_scenes.h"
+
+namespace unshot {
+namespace {
+
+using namespace testing_support;
+
+/// As `unshot solve` without a method.
+SolveOptions soonest(double error) {
+  SolveOptions options;
+  options.soonest = true;
+  options.error = error;
+  return options;
+}
+
+std::set<std::string> keysOf(const Solve& solve) {
+  std::set<std::string> out;
+  for (const PlanDecision& d : solve.plan()) out.insert(d.key);
+  return out;
+}
+
+/// RMS of what the two show apart over RMS of what `with` reflects, at the middle of each of its elements.
+/// A side that the other leaves out counts as 0.
+double difference(const Solve& with, const Solve& without) {
+  const Mesh& mesh = with.mesh();
+  std::vector<Probe> probes;
+  std::vector<double> area;
+  std::vector<glm::dvec3> emission;
+  for (std::uint32_t e = 0; e < mesh.element_count; ++e) {
+    const Side& side = mesh.sides[mesh.element_side[e]];
+    const Surface& surface = mesh.surfaces[side.surface];
+    probes.push_back({mesh.shapes[surface.elements.first + e - side.first_element].centre + mesh.frame_origin,
+                      side.normal});
+    area.push_back(mesh.element_area[e]);
+    emission.push_back(side.emission);
+  }
+  const auto a = answerProbes(with.snapshot(), probes, false),
+             b = answerProbes(without.snapshot(), probes, false);
+  double squares = 0, reflected = 0;
+  for (std::size_t k = 0; k < probes.size(); ++k) {
+    EXPECT_TRUE(a[k] && b[k]) << k;
+    if (!a[k] || !b[k]) continue;
+    const glm::dvec3 apart = *a[k] - *b[k], light = *a[k] - emission[k];
+    squares += area[k] * glm::dot(apart, apart);
+    reflected += area[k] * glm::dot(light, light);
+  }
+  return std::sqrt(squares / reflected);
+}
+
+/// Solved as asked for, and with this done all the same; the plan must take the decision in the first alone.
+struct Pair {
+  std::unique_ptr<Solve> without, with;  // without the work, and with it
+};
+Pair solvedBothWays(const std::function<Scene()>& make, SolveOptions options, std::string_view key) {
+  Pair out;
+  out.without = solved(make(), options);
+  options.do_anyway = {std::string(key)};
+  out.with = solved(make(), options);
+  EXPECT_EQ(keysOf(*out.without).count(std::string(key)), 1u);
+  EXPECT_EQ(keysOf(*out.with).count(std::string(key)), 0u);
+  return out;
+}
+
+Scene roomWithBoxes() {
+  SceneBuilder b;
+  const auto grey = b.material("grey", glm::dvec3(0.5, 0.6, 0.7)),
+             lamp = b.material("lamp", glm::dvec3(0.3), glm::dvec3(4));
+  addBox(b, allOf(grey), {0, 0, 0}, {4, 3, 4}, true);
+  addBox(b, allOf(grey), {1, 0, 1}, {1, 1, 1}, false);
+  addBox(b, allOf(grey), {2.4, 1, 2}, {0.5, 0.5, 0.7}, false);
+  b.quad(lamp, {2, 2.9, 1}, {1, 0, 0}, {0, 0, 1});
+  return b.finish();
+}
+
+class DarkSides : public testing::TestWithParam<FormFactorMethodRow> {};
+
+// On the same elements, with the same form factors between them: to the solver's error. At vertices, whose
+// numbers change, rays go elsewhere at random.
+TEST_P(DarkSides, HaveNoPartInTheLight) {
+  SolveOptions options = optionsOf(GetParam().info.key, 1, 1e-6);
+  options.elements.reset();
+  options.element_size = 0.5;  // so few that each is a patch, with and without
+  options.mode = "gmres";
+  const Pair pair = solvedBothWays(roomWithBoxes, options, plan_keys::kDarkSides);
+  EXPECT_LT(2 * pair.without->mesh().sides.size(), pair.with->mesh().sides.size() + 5);
+  const double apart = difference(*pair.with, *pair.without);
+  measured("apart", apart);
+  EXPECT_LT(apart, GetParam().receivers == ReceiverKind::kElements ? 1e-5 : 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, DarkSides, testing::ValuesIn(occludingMethods()),
+                         [](const auto& row) { return testName(row.param.info.key); });
+
+// In scenes that nobody would think of, what is left out receives nothing where it is solved.
+TEST(Plan, LeavesOutDarkSidesOnlyInRandomScenes) {
+  std::size_t scenes = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SolveOptions options = optionsOf("hemicube", 60, 0.05);
+    options.hemicube_resolution = 32;
+    const auto without = begun(RandomScene(seed).scene(), options);
+    if (keysOf(*without).count("dark-sides") == 0) continue;
+    options.do_anyway = {std::string(plan_keys::kDarkSides)};
+    const auto with = begun(RandomScene(seed).scene(), options);
+    while (with->state() == SolveState::kRunning) with->step(Solve::kMostAtOnce);
+    const Mesh& mesh = with->mesh();
+    const Snapshot snapshot = with->snapshot();
+    double arrived = 0;
+    for (std::uint32_t e = 0; e < mesh.element_count; ++e) {
+      const Side& side = mesh.sides[mesh.element_side[e]];
+      const Surface& lit = without->mesh().surfaces[side.surface];
+      if (lit.side[side.back ? 1 : 0] != kNone) continue;
+      const glm::vec3& h = snapshot.element_irradiance[e];
+      arrived += mesh.element_area[e] * static_cast<double>(h.x + h.y + h.z);
+    }
+    // A pixel or two at an outline may show the wrong side.
+    EXPECT_LE(arrived, 1e-3 * with->energy().emitted) << "seed " << seed;
+    ++scenes;
+  }
+  EXPECT_GT(scenes, 10u);
+}
+
+TEST(Plan, LeavesOutWhatBlackPatchesWouldSend) {
+  const auto make = [] {
+    std::array<Material, 6> materials;
+    materials.fill({"grey", glm::dvec3(0.5), glm::dvec3(0.0)});
+    materials[1].emission = glm::dvec3(1);
+    materials[2].reflectance = materials[3].reflectance = glm::dvec3(0.0);
+    return cubeScene(materials);
+  };
+  const Pair pair = solvedBothWays(make, optionsOf("rays", 400, 1e-6), plan_keys::kBlackPatches);
+  EXPECT_LT(pair.without->measures().rows, pair.with->measures().rows);
+  EXPECT_LT(difference(*pair.with, *pair.without), 1e-6);
+}
+
+// Rays then see that nothing occludes: the same factors, but for single precision.
+TEST(Plan, LeavesOutTestsOfOcclusionWhereNothingCanOcclude) {
+  for (const double rho : {0.5, 0.9}) {
+    SolveOptions options = soonest(1e-6);
+    options.elements = 600;
+    const Pair pair = solvedBothWays([&] { return cubeOneFaceLit(rho); }, options, plan_keys::kOcclusion);
+    EXPECT_EQ(pair.without->formFactorsKey(), "closed-form");
+    EXPECT_NE(pair.with->formFactorsKey(), "closed-form");
+    const double apart = difference(*pair.with, *pair.without);
+    measured("apart", apart);
+    EXPECT_LT(apart, 1e-3);
+  }
+}
+
+// Those that change mesh or method: either is as near to the truth as was asked for.
+class WithinTheError : public testing::TestWithParam<std::string_view> {};
+
+TEST_P(WithinTheError, OfTheScene) {
+  constexpr double kError = 0.02;
+  const Pair pair = solvedBothWays(publishedCornellBox, soonest(kError), GetParam());
+  const double apart = difference(*pair.without, *pair.with);
+  measured("apart", apart);
+  // Counted pixels on an even mesh, which hemicubes go with, are 2.4 % off by themselves.
+  EXPECT_LT(apart, 2 * kError + (GetParam() == plan_keys::kHemicubes ? 0.03 : 0));
+}
+
+INSTANTIATE_TEST_SUITE_P(Decisions, WithinTheError,
+                         testing::Values(plan_keys::kTriangles, plan_keys::kHemicubes, plan_keys::kEvenLight),
+                         [](const auto& key) { return testName(key.param); });
+
+TEST(Plan, IsSwitchedOffAsAWhole) {
+  SolveOptions options = soonest(0.05);
+  options.do_anyway = doAll();
+  const auto solve = solved(publishedCornellBox(), options);
+  EXPECT_TRUE(solve->plan().empty());
+  EXPECT_EQ(solve->formFactorsKey(), "hemicube");
+  EXPECT_EQ(solve->mesh().sides.size(), 2 * solve->mesh().surfaces.size());
+}
+
+}  // namespace
+}  // namespace unshot
