@@ -6,11 +6,10 @@
 
 namespace unshot {
 
-// A surface with the scene on one side of its plane has one lit side (or none). If all have, the scene lies
-// on the border of a convex body, and a line of sight between two of its points stays inside.
+// If all that light reaches lies on one side of each surface's plane, it lies on the border of a convex body,
+// and a line of sight between two of its points stays inside.
 bool nothingCanOcclude(const Mesh& mesh) {
-  return std::none_of(mesh.surfaces.begin(), mesh.surfaces.end(),
-                      [](const Surface& s) { return s.side[0] != kNone && s.side[1] != kNone; });
+  return std::none_of(mesh.surfaces.begin(), mesh.surfaces.end(), [](const Surface& s) { return s.between; });
 }
 
 std::span<const FormFactorMethodRow> formFactorMethods() {

@@ -29,11 +29,12 @@ std::uint32_t patchCells(double elements) {
   return cells;
 }
 
-// What lies in front of surfaces.
+// What lies in front of surfaces, of some of them.
 class Fronts {
  public:
-  Fronts(const Mesh& mesh, const CancelToken& cancel)
-      : margin_(2 * mesh.weld_distance), points_(pointsOf(mesh)), tree_(points_, cancel) {}
+  template <class Counts>
+  Fronts(const Mesh& mesh, const Counts& counts, const CancelToken& cancel)
+      : margin_(2 * mesh.weld_distance), points_(pointsOf(mesh, counts)), tree_(points_, cancel) {}
 
   bool seesSomething(const Surface& surface, bool back) const {
     const glm::dvec3 normal = back ? -surface.normal : surface.normal;
@@ -41,14 +42,17 @@ class Fronts {
   }
 
  private:
-  static std::vector<glm::dvec3> pointsOf(const Mesh& mesh) {
+  template <class Counts>
+  static std::vector<glm::dvec3> pointsOf(const Mesh& mesh, const Counts& counts) {
     std::vector<glm::dvec3> used;
     used.reserve(mesh.triangles.size() * 3);
     std::vector<char> seen(mesh.positions.size(), 0);
-    for (const ChartTriangle& t : mesh.triangles) {
-      for (const std::uint32_t v : t.position) {
-        if (!seen[v]) used.push_back(mesh.positions[v]);
-        seen[v] = 1;
+    for (const Surface& surface : mesh.surfaces) {
+      for (std::uint32_t t = surface.triangles.first; counts(surface) && t < surface.triangles.end(); ++t) {
+        for (const std::uint32_t v : mesh.triangles[t].position) {
+          if (!seen[v]) used.push_back(mesh.positions[v]);
+          seen[v] = 1;
+        }
       }
     }
     return used;
@@ -62,26 +66,29 @@ class Fronts {
 // Two flags for each surface: whether light may reach that side, which it does not where nothing of the scene
 // lies in front of it (and its own meets nothing then), nor where surfaces keep it away (mesh/reach.h).
 std::vector<char> sidesToKeep(const MeshOptions& options, const SurfaceTopology& topology,
-                              std::span<const Crossing> crossings, const Mesh& mesh,
-                              const CancelToken& cancel) {
+                              std::span<const Crossing> crossings, Mesh& mesh, const CancelToken& cancel) {
   const std::size_t count = 2 * mesh.surfaces.size();
-  std::vector<char> keep(count, 1);
-  if (options.sky || options.all_sides) return keep;
-  const Fronts fronts(mesh, cancel);
+  std::vector<char> keep(count, 1), sees(count);
+  if (options.sky || (options.outer_sides && options.dark_sides)) return keep;
+  const Fronts fronts(
+      mesh, [](const Surface&) { return true; }, cancel);
   for (std::size_t k = 0; k < count; ++k) {
     cancel.check();
-    keep[k] = fronts.seesSomething(mesh.surfaces[k / 2], k % 2 != 0);
+    sees[k] = fronts.seesSomething(mesh.surfaces[k / 2], k % 2 != 0);
+    mesh.surfaces[k / 2].outer[k % 2] = !sees[k];
   }
   // A flat sheet sees nothing at all; it is kept whole, so that it can be shown.
-  if (std::find(keep.begin(), keep.end(), 1) == keep.end()) return std::vector<char>(count, 1);
-  std::vector<char> emits(count);
+  if (std::find(sees.begin(), sees.end(), 1) == sees.end()) return keep;
+  if (!options.outer_sides) keep = sees;
+  if (options.dark_sides) return keep;
+  std::vector<char> emits(count);  // what sees nothing lights nothing
   for (std::size_t k = 0; k < count; ++k) {
     const bool light = mesh.materials[mesh.surfaces[k / 2].material].emits();
-    emits[k] = keep[k] && light && !(k % 2 != 0 && options.emit_front_only);
+    emits[k] = sees[k] && light && !(k % 2 != 0 && options.emit_front_only);
   }
   const std::vector<char> reached =
       findReach(mesh, topology.edges, crossings, emits, mesh.weld_distance, cancel);
-  for (std::size_t k = 0; k < count; ++k) keep[k] = keep[k] && reached[k];
+  for (std::size_t k = 0; k < count; ++k) keep[k] = keep[k] && (reached[k] || !sees[k]);
   return keep;
 }
 
@@ -105,6 +112,15 @@ void makeSides(const MeshOptions& options, const std::vector<char>& keep, Mesh& 
 }
 
 int litSides(const Surface& s) { return (s.side[0] != kNone) + (s.side[1] != kNone); }
+
+void findBetween(bool sky, Mesh& mesh, const CancelToken& cancel) {
+  const Fronts fronts(
+      mesh, [](const Surface& s) { return litSides(s) > 0; }, cancel);
+  for (Surface& s : mesh.surfaces) {
+    cancel.check();
+    s.between = litSides(s) > 0 && (sky || (fronts.seesSomething(s, false) && fronts.seesSomething(s, true)));
+  }
+}
 
 // Where `paired`, an even number as soon as it is more than one.
 std::uint32_t cellsAlong(double extent, double size, bool paired) {
@@ -288,6 +304,7 @@ Mesh buildMesh(const Scene& scene, const MeshOptions& options, const CancelToken
   const double tolerance = mesh.weld_distance = weldDistance(scene);
   const std::vector<Crossing> crossings = findCrossings(mesh, 2 * tolerance, cancel);
   makeSides(options, sidesToKeep(options, topology, crossings, mesh, cancel), mesh);
+  findBetween(options.sky, mesh, cancel);
   cancel.check();
   const double size = options.element_size.value_or(
       std::sqrt(mesh.lit_area / static_cast<double>(options.elements.value_or(kDefaultElements))));

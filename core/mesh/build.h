@@ -19,8 +19,10 @@ struct MeshOptions {
   /// thousand patches: for meshes that are refined afterwards.
   /// `elements` then counts those beyond one a side: small things must not leave large walls without.
   bool paired_cells = false;
-  /// Sides that no light can reach have elements too.
-  bool all_sides = false;
+  /// Sides that nothing of the scene lies in front of have elements too.
+  bool outer_sides = false;
+  /// And so have sides that closed surfaces keep from all light (mesh/reach.h).
+  bool dark_sides = false;
   /// Polygons of one material in one plane are one surface where they join.
   bool join_polygons = true;
   /// Light comes from outside the scene too: no side is left out.

@@ -44,6 +44,8 @@ struct Surface {
   Range elements;                ///< in Mesh::shapes: the surface's elements, whatever the side
   Range patches;                 ///< in Mesh::patch_shapes
   std::uint32_t side[2] = {kNone, kNone};  ///< front, back: in Mesh::sides; kNone where no light can reach
+  bool outer[2] = {false, false};          ///< front, back: whether nothing of the scene lies in front
+  bool between = false;  ///< surfaces that light reaches, or the sky, lie on either side of its plane
 
   glm::dvec3 point(const glm::dvec2& uv) const { return origin + uv.x * axis_u + uv.y * axis_v; }
   glm::dvec2 chart(const glm::dvec3& p) const {

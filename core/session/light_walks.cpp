@@ -79,10 +79,8 @@ class Walks {
     const auto hit = rays_.intersect(rays_.rays().lifted(walker.point, walker.normal),
                                      cosineDirection(walker.normal, u, v));
     ++out_.rays;
-    if (!hit || hit->side == kNone) {
-      ++out_.escapes;
-      return false;
-    }
+    out_.escapes += !hit;
+    if (!hit || hit->side == kNone) return false;  // it began where no light comes, such as below a block
     walker = {hit->at.position, hit->at.normal, hit->side};
     return true;
   }

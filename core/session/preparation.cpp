@@ -40,7 +40,8 @@ MeshOptions meshOptions(const Scene& scene, const SolveOptions& options) {
           .element_size = options.element_size,
           .emit_front_only = options.emit_front_only,
           .paired_cells = false,
-          .all_sides = !leavesOut(options.do_anyway, plan_keys::kDarkSides),
+          .outer_sides = !leavesOut(options.do_anyway, plan_keys::kOuterSides),
+          .dark_sides = !leavesOut(options.do_anyway, plan_keys::kDarkSides),
           .join_polygons = leavesOut(options.do_anyway, plan_keys::kTriangles),
           .sky = skyOver(scene, options.sky) != glm::dvec3(0.0)};
 }

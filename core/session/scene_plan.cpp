@@ -12,8 +12,10 @@ namespace {
 constexpr std::string_view kExact = "exact: the light is the same to rounding";
 
 constexpr PlanRow kRows[] = {
+    {{plan_keys::kOuterSides, "Sides that see nothing", "elements where nothing of the scene lies in front"},
+     kExact},
     {{plan_keys::kDarkSides, "Sides that no light can reach",
-      "elements on them: nothing lies in front of them, or closed surfaces keep all light away"},
+      "elements where closed surfaces lie between them and every light"},
      kExact},
     {{plan_keys::kTriangles, "Borders inside flat surfaces",
       "cuts where polygons of one material join in one plane"},
@@ -33,6 +35,34 @@ const PlanRow& rowOf(std::string_view key) { return findChoice(planRows(), key, 
 
 PlanDecision decision(std::string_view key, std::string what, std::string why, std::string saving) {
   return {std::string(key), std::move(what), std::move(why), std::move(saving)};
+}
+
+// Of sides without elements.
+void addSides(const Mesh& mesh, std::vector<PlanDecision>& out) {
+  struct Left {
+    std::size_t sides = 0;
+    double area = 0;
+  } outer, dark;
+  for (const Surface& s : mesh.surfaces) {
+    for (int back = 0; back < 2; ++back) {
+      if (s.side[back] != kNone) continue;
+      Left& left = s.outer[back] ? outer : dark;
+      ++left.sides;
+      left.area += s.area;
+    }
+  }
+  const auto add = [&](std::string_view key, const Left& left, std::string_view why) {
+    if (left.sides == 0) return;
+    const double share = left.area / (outer.area + dark.area + mesh.lit_area);
+    out.push_back(decision(key,
+                           "elements on " + std::to_string(left.sides) + " of " +
+                               std::to_string(2 * mesh.surfaces.size()) + " surface sides",
+                           std::string(why),
+                           std::to_string(static_cast<int>(100 * share + 0.5)) + " % of the elements"));
+  };
+  add(plan_keys::kOuterSides, outer,
+      "nothing of the scene lies in front of them, so no light can reach them");
+  add(plan_keys::kDarkSides, dark, "closed surfaces lie between them and every light");
 }
 
 }  // namespace
@@ -64,16 +94,7 @@ bool leavesOut(const DoAnyway& done, std::string_view key) {
 std::vector<PlanDecision> makePlan(const Scene& scene, const Mesh& mesh, std::string_view form_factors,
                                    const DoAnyway& done) {
   std::vector<PlanDecision> out;
-  const std::size_t all_sides = 2 * mesh.surfaces.size(), unlit = all_sides - mesh.sides.size();
-  if (unlit > 0) {
-    double area = -mesh.lit_area;
-    for (const Surface& s : mesh.surfaces) area += 2 * s.area;
-    out.push_back(decision(
-        plan_keys::kDarkSides,
-        "elements on " + std::to_string(unlit) + " of " + std::to_string(all_sides) + " surface sides",
-        "nothing of the scene lies in front of them, or closed surfaces lie between them and every light",
-        std::to_string(static_cast<int>(100 * area / (area + mesh.lit_area) + 0.5)) + " % of the elements"));
-  }
+  addSides(mesh, out);
   if (scene.triangle_count > mesh.surfaces.size() && leavesOut(done, plan_keys::kTriangles)) {
     out.push_back(decision(plan_keys::kTriangles,
                            "borders inside " + std::to_string(mesh.surfaces.size()) + " surfaces",

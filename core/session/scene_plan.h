@@ -23,6 +23,7 @@ struct PlanRow {
 std::span<const PlanRow> planRows();
 
 namespace plan_keys {
+inline constexpr std::string_view kOuterSides = "outer-sides";
 inline constexpr std::string_view kDarkSides = "dark-sides";
 inline constexpr std::string_view kTriangles = "triangles";
 inline constexpr std::string_view kOcclusion = "occlusion";

@@ -146,6 +146,9 @@ std::vector<std::pair<std::string, SolveOptions>> solves() {
   follows.form_factors = "rays";
   follows.error = 0.02;
   out.emplace_back("rays, following the light", follows);
+  // What no light can reach is left out by proof: here transport has to show it.
+  for (auto& [name, options] : out) options.do_anyway = {std::string(plan_keys::kDarkSides)};
+  out.emplace_back("rays, following the light, without dark sides", follows);
   return out;
 }
 
@@ -199,7 +202,7 @@ TEST_P(Leaks, NoFringeAlongContacts) {
     // Where the mesh follows the light a line nearer to the contact is as good as one farther off; elements
     // that are all alike, of a quarter of the room's height, are means over what they cover.
     const auto [least, most] = std::minmax_element(off.begin(), off.end());
-    EXPECT_LT(*most - *least, options.elements ? 0.15 : 0.05);
+    EXPECT_LT(*most - *least, options.elements ? 0.15 : options.do_anyway.empty() ? 0.08 : 0.05);
     EXPECT_LT(std::max(*most, -*least), options.elements ? 0.15 : 0.06);
   }
 }

@@ -62,6 +62,14 @@ glm::dvec3 centreOf(const Mesh& mesh, std::uint32_t patch) {
       regionOfPatch(mesh, side.surface, patch - side.first_patch).sample);
 }
 
+// Where a block stands on a floor, patches below it too.
+MeshOptions withDarkSides(std::uint64_t elements) {
+  MeshOptions options;
+  options.elements = elements;
+  options.dark_sides = true;
+  return options;
+}
+
 class FactorLaws : public testing::TestWithParam<Case> {
  protected:
   // A row of hemicubes takes one of each patch.
@@ -70,7 +78,7 @@ class FactorLaws : public testing::TestWithParam<Case> {
     return someOf(static_cast<std::uint32_t>(receivers_.size()), count, seed);
   }
 
-  Mesh mesh_ = buildMesh(GetParam().scene.make(), {400, {}, false});
+  Mesh mesh_ = buildMesh(GetParam().scene.make(), withDarkSides(400));
   std::unique_ptr<FormFactorMethod> method_ = makeMethod(GetParam().method, mesh_);
   Receivers receivers_ = makeReceivers(mesh_, method_->receiverKind());
 };

@@ -17,7 +17,10 @@ namespace {
 using namespace testing_support;
 
 Mesh meshed(const Scene& scene, std::uint64_t elements) {
-  return buildMesh(scene, {.elements = elements, .element_size = {}});
+  MeshOptions options;
+  options.elements = elements;
+  options.dark_sides = true;  // dark rooms too
+  return buildMesh(scene, options);
 }
 
 // The airs of those patches that `counts` lets pass, given a point right before each of their elements (in

@@ -209,10 +209,12 @@ TEST(BuildMesh, GivesElementsOnlyToSidesThatLightCanReach) {
   const Mesh cube = buildMesh(furnaceScene(0.5, 0.5), {600, {}, false});
   EXPECT_EQ(cube.sides.size(), 6u);
   for (const Side& side : cube.sides) EXPECT_FALSE(side.back);
-  const Mesh rooms = buildMesh(litAndDarkRoom(), {600, {}, false});
-  // 8 + 2 + 2 faces of the two rooms, of which the wall between counts on either side, and both sides of the
-  // light.
-  EXPECT_EQ(rooms.sides.size(), 8u + 2u + 2u + 2u);
+  // The lit one of two rooms, and both sides of its light.
+  MeshOptions options;
+  options.elements = 600;
+  EXPECT_EQ(buildMesh(litAndDarkRoom(), options).sides.size(), 6u + 2u);
+  options.dark_sides = true;
+  EXPECT_EQ(buildMesh(litAndDarkRoom(), options).sides.size(), 8u + 2u + 2u + 2u);
 }
 
 TEST(BuildMesh, LetsBackSidesEmitUnlessToldNotTo) {
