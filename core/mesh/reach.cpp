@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <unordered_set>
 #include <utility>
 
@@ -38,11 +39,15 @@ class Reach {
         stands_on_(2 * mesh.surfaces.size()),
         lit_(2 * mesh.surfaces.size(), 0),
         shell_lit_(lit_.size(), 0),
-        shell_known_(lit_.size(), 0) {
+        shell_known_(lit_.size(), 0),
+        shell_touched_(lit_.size(), 0),
+        seen_(lit_.size()) {
     for (const Touch& t : touches) {
       for (std::uint32_t use = t.edge;
            use < edges.size() && edges[use].a == edges[t.edge].a && edges[use].b == edges[t.edge].b; ++use) {
         const auto [low, high] = heights(mesh, edges[use].surface, mesh.surfaces[t.surface]);
+        for (const std::uint32_t s : {t.surface, edges[use].surface})
+          shell_touched_[shells.of(2 * s)] = shell_touched_[shells.of(2 * s + 1)] = 1;
         if (high > kOff * weld_distance) stands_on_[2 * t.surface].push_back(edges[use].surface);
         if (low < -kOff * weld_distance) stands_on_[2 * t.surface + 1].push_back(edges[use].surface);
       }
@@ -71,7 +76,7 @@ class Reach {
     }
     for (std::uint32_t side = 0; side < lit_.size(); ++side) {
       cancel.check();
-      lit_[side] = emits[side] || seesLight(side, kOff) || seesLight(side, kNear);
+      lit_[side] = emits[side] || seesLight(side);
       shell_lit_[shells_.of(side)] |= lit_[side];
     }
     return true;
@@ -115,6 +120,14 @@ class Reach {
     const auto place = shells_.placeOf(side, off * weld_distance_);
     return !place || light_.count(*place) > 0;
   }
+  // A shell that nothing touches is in one place.
+  bool seesLight(std::uint32_t side) {
+    const std::uint32_t shell = shells_.of(side);
+    if (!shell_touched_[shell] && seen_[shell]) return *seen_[shell];
+    const bool sees = seesLight(side, kOff) || seesLight(side, kNear);
+    seen_[shell] = sees;
+    return sees;
+  }
 
   Shells& shells_;
   double weld_distance_;
@@ -122,6 +135,8 @@ class Reach {
   std::unordered_set<Shells::Place> light_;
   std::vector<char> lit_;                      // of sides
   std::vector<char> shell_lit_, shell_known_;  // whether one of its sides is lit, or surely in one place
+  std::vector<char> shell_touched_;            // whether anything touches it, or it touches anything
+  std::vector<std::optional<bool>> seen_;      // whether light comes to a shell that nothing touches
 };
 
 }  // namespace

@@ -35,6 +35,19 @@ std::uint32_t rootOf(std::vector<std::uint32_t>& forest, std::uint32_t k) {
   return k;
 }
 
+// Of six directions, the one in which the scene ends soonest.
+int shortestWayOut(const Mesh& mesh, const glm::dvec3& point) {
+  int best = 0;
+  double least = INFINITY;
+  for (int k = 0; k < 6; ++k) {
+    const double way = k % 2 ? point[k / 2] - mesh.bounds_min[k / 2] : mesh.bounds_max[k / 2] - point[k / 2];
+    if (way >= least) continue;
+    least = way;
+    best = k;
+  }
+  return best;
+}
+
 std::array<glm::dvec3, 3> cornersOf(const Mesh& mesh, std::uint32_t triangle) {
   const std::uint32_t* v = mesh.triangles[triangle].position;
   return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
@@ -177,7 +190,8 @@ std::optional<Shells::Place> Shells::placeOf(std::uint32_t side, double off) {
     const std::array<glm::dvec3, 3> c = cornersOf(mesh_, surface.triangles.first + nth);
     // Not near an edge, where a line may meet others.
     const double a = 0.2 + 0.4 * random(), b = (0.2 + 0.6 * random()) * (1 - a);
-    const auto place = lines_->placeOf(a * c[0] + b * c[1] + (1 - a - b) * c[2] + away, k % 6);
+    const glm::dvec3 point = a * c[0] + b * c[1] + (1 - a - b) * c[2] + away;
+    const auto place = lines_->placeOf(point, k == 0 ? shortestWayOut(mesh_, point) : k % 6);
     if (place) return place;
   }
   return std::nullopt;
