@@ -3,14 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "gl/context.h"
 #include "mesh/build.h"
 #include "render/display_modes.h"
+#include "render/exposure.h"
 #include "render/picture.h"
+#include "render/scene_view.h"
 #include "render/side_pictures.h"
 #include "render/targets.h"
 #include "scene/analytic_scenes.h"
@@ -135,6 +139,34 @@ TEST_P(UnlitSurfacesOn, DoNotChangeTheExposure) {
     return picture(rooms, show("radiosity", eye, at)).exposure;
   };
   EXPECT_EQ(exposure({1, 1, 1.9}, {1, 1, 0}), exposure({2.5, 1, 12}, {2.5, 1, 0}));
+}
+
+// As a window does it, that goes on living meanwhile.
+TEST_P(UnlitSurfacesOn, AreDrawnInAnyPieces) {
+  const Snapshot rooms = litRoomBesideDarkOne();
+  const StateGuard guard(context_->functions());
+  SceneView view(*context_);
+  view.setSnapshot(rooms);
+  const LinearTarget target(*context_, 80, 60);
+  Camera camera;
+  camera.eye = glm::dvec3(2.5, 4, 9) - rooms.mesh->frame_origin;
+  camera.at = glm::dvec3(2.5, 1, 1) - rooms.mesh->frame_origin;
+  ViewOptions options;
+  for (const char* display : {"radiosity", "flat", "mesh"}) {
+    options.display = display;
+    const std::size_t all = view.pieceCount(options);
+    const auto drawn = [&](std::size_t at_once) {
+      target.bind();
+      for (std::size_t first = 0; first < all; first += at_once)
+        view.drawPieces(camera, 4.0 / 3, {}, options, {first, std::min(at_once, all - first)});
+      return target.read();
+    };
+    const std::vector<glm::vec4> whole = drawn(all);
+    EXPECT_TRUE(std::any_of(whole.begin(), whole.end(), [](const glm::vec4& p) {
+      return p == glm::vec4(0, 0, 0, kSurfacePixel);
+    })) << display;
+    EXPECT_EQ(whole, drawn(5)) << display;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Render, UnlitSurfacesOn,
