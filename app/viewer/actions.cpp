@@ -4,7 +4,6 @@
 #include <GLFW/glfw3.h>
 
 #include <array>
-#include <cmath>
 
 #include "base/error.h"
 #include "base/parse.h"
@@ -12,106 +11,12 @@
 #include "mesh/build.h"
 #include "render/display_modes.h"
 #include "scene/sky.h"
-#include "solver/bounce_series.h"
 #include "solver/modes.h"
+#include "viewer/action_arguments.h"
 #include "viewer/viewer.h"
 
 namespace unshot {
 namespace {
-
-// Arguments.
-
-/// A whole number from `low` to `high`.
-template <std::uint64_t low, std::uint64_t high>
-std::string checkWhole(const std::string& text) {
-  const std::optional<double> number = parseNumber(text);
-  const bool fits = number && *number >= static_cast<double>(low) && *number <= static_cast<double>(high) &&
-                    *number == std::floor(*number);
-  return fits ? std::string()
-              : "'" + text + "' is no whole number from " + std::to_string(low) + " to " +
-                    std::to_string(high);
-}
-
-std::uint64_t whole(const std::string& text) { return static_cast<std::uint64_t>(*parseNumber(text)); }
-
-template <class Row>
-std::string checkKey(std::span<const Row> table, bool with_auto, const std::string& text) {
-  std::string keys = with_auto ? "auto" : "";
-  if (with_auto && text == "auto") return {};
-  for (const Row& row : table) {
-    if (row.info.key == text) return {};
-    keys += (keys.empty() ? "" : ", ") + std::string(row.info.key);
-  }
-  return "there is no '" + text + "'; it is one of " + keys;
-}
-
-std::string checkSwitch(const std::string& text) {
-  return text.empty() || text == "on" || text == "off" ? "" : "'" + text + "' is neither on nor off";
-}
-
-/// "on", "off", or nothing: the other one.
-void setSwitch(bool& value, const std::string& text) { value = text.empty() ? !value : text == "on"; }
-
-std::string checkFraction(const std::string& text) {
-  const std::optional<double> number = parseNumber(text);
-  return number && *number > 0 && *number < 1 ? "" : "'" + text + "' does not lie between 0 and 1";
-}
-
-std::string checkNumber(const std::string& text) {
-  const std::optional<double> number = parseNumber(text);
-  return number && std::abs(*number) <= 100 ? "" : "'" + text + "' is no number from -100 to 100";
-}
-
-std::optional<PlotAxis> plotAxis(const std::string& text) {
-  if (text == "seconds") return PlotAxis::kSeconds;
-  if (text == "shots") return PlotAxis::kShots;
-  return text == "rows" ? std::optional(PlotAxis::kRows) : std::nullopt;
-}
-
-std::string checkBounces(const std::string& text) {
-  if (text == "all") return {};
-  const std::string wrong = checkWhole<1, BounceSeries::kMost>(text);
-  return wrong.empty() ? wrong : wrong + ", nor 'all'";
-}
-
-std::string checkScale(const std::string& text) {
-  const std::optional<double> number = parseNumber(text);
-  return number && *number >= 0.5 && *number <= 4 ? "" : "'" + text + "' is no number from 0.5 to 4";
-}
-
-std::optional<std::pair<int, int>> sizeOf(const std::string& text) {
-  const std::vector<std::string_view> parts = splitParts(text, 'x');
-  if (parts.size() != 2) return std::nullopt;
-  const std::optional<double> width = parseNumber(parts[0]), height = parseNumber(parts[1]);
-  const auto fits = [](const std::optional<double>& x) {
-    return x && *x >= 200 && *x <= 8192 && *x == std::floor(*x);
-  };
-  if (!fits(width) || !fits(height)) return std::nullopt;
-  return std::pair{static_cast<int>(*width), static_cast<int>(*height)};
-}
-
-std::string checkSize(const std::string& text) {
-  return sizeOf(text) ? "" : "'" + text + "' is no size WIDTHxHEIGHT from 200 to 8192 pixels";
-}
-
-/// ex,ey,ez,ax,ay,az[,fov]
-std::vector<double> numbersOf(const std::string& text) {
-  std::vector<double> numbers;
-  for (const std::string_view part : splitParts(text, ',')) {
-    const std::optional<double> number = parseNumber(part);
-    if (!number || !std::isfinite(*number)) return {};
-    numbers.push_back(*number);
-  }
-  return numbers;
-}
-
-std::string checkCamera(const std::string& text) {
-  const std::vector<double> n = numbersOf(text);
-  if (n.size() != 6 && n.size() != 7) return "'" + text + "' is no camera ex,ey,ez,ax,ay,az[,fov]";
-  if (n[0] == n[3] && n[1] == n[4] && n[2] == n[5]) return "the eye is at the point that it looks at";
-  if (n.size() == 7 && !(n[6] >= 1 && n[6] <= 170)) return "the angle of view must be from 1 to 170 degrees";
-  return {};
-}
 
 // What they do.
 
@@ -198,6 +103,22 @@ const std::
                        [](const std::string& a) { return checkKey(formFactorMethods(), true, a); }},
                 Action{"elements", "N", "Solve again on a mesh of about N elements (0: chosen)", kNone,
                        runElements, checkWhole<0, kMostElements>},
+                Action{"do", "KEY [on|off]", "Solve again with this done that the plan would leave out, or without",
+                       kNone,
+                       [](Viewer& v, const std::string& a) {
+                         setDo(v.ui().options.do_anyway, a);
+                         v.restart();
+                       },
+                       checkDo},
+                Action{"do-all", "[on|off]", "Solve again with all of that done, or with none of it", kNone,
+                       [](Viewer& v, const std::string& a) {
+                         DoAnyway& done = v.ui().options.do_anyway;
+                         bool all = doesAll(done);
+                         setSwitch(all, a);
+                         done = all ? doAll() : DoAnyway();
+                         v.restart();
+                       },
+                       checkSwitch},
                 Action{"sky", "r,g,b",
                        "Solve again under a uniform sky of this radiosity [W/m^2] (auto: 1,1,1 where no face "
                        "emits)",
@@ -304,6 +225,8 @@ const std::
                 Action{"notes", "[on|off]", "Show or hide what is doubtful about the scene, in the panel",
                        kNone, [](Viewer& v, const std::string& a) { setSwitch(v.ui().notes, a); },
                        checkSwitch},
+                Action{"left-out", "[on|off]", "Show or hide what the solve leaves out, in the panel", kNone,
+                       [](Viewer& v, const std::string& a) { setSwitch(v.ui().left_out, a); }, checkSwitch},
                 Action{"help",
                        "[on|off]",
                        "Show or hide this help",

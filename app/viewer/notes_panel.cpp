@@ -31,18 +31,6 @@ std::size_t warningsAmong(const Diagnostics& notes) {
       notes.begin(), notes.end(), [](const Diagnostic& d) { return d.severity == Severity::kWarning; }));
 }
 
-void wrapped(const std::string& text) {
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
-}
-
-void dimmed(const std::string& text) {
-  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  wrapped(text);
-  ImGui::PopStyleColor();
-}
-
 /// The folder of a place is too long to read here, and the same for all.
 std::string shortPlace(const std::string& where) { return std::filesystem::path(where).filename().string(); }
 
@@ -87,15 +75,6 @@ void warningsSection(Viewer& viewer) {
 void notesSection(Viewer& viewer) {
   const SessionState& state = viewer.state();
   if (!state.facts) return;
-  if (!state.facts->plan.empty()) {
-    const std::string title = "Left out (" + std::to_string(state.facts->plan.size()) + ")###plan";
-    if (ImGui::CollapsingHeader(title.c_str())) {
-      for (const PlanDecision& d : state.facts->plan) {
-        dot(kNote);
-        wrapped(d.what + ": " + d.why);
-      }
-    }
-  }
   const Diagnostics notes = notesOf(state);
   if (!notes.empty() && warningsAmong(notes) == 0)
     noteList(viewer, notes, "Notes on the scene (" + std::to_string(notes.size()) + ")");

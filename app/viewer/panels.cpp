@@ -13,6 +13,7 @@
 #include "viewer/bounce_panel.h"
 #include "viewer/error_panel.h"
 #include "viewer/notes_panel.h"
+#include "viewer/plan_panel.h"
 #include "viewer/race_panel.h"
 #include "viewer/theme.h"
 #include "viewer/widgets.h"
@@ -357,6 +358,7 @@ void buildSidePanel(Viewer& viewer, int left) {
   displaySection(viewer);
   bouncesSection(viewer);
   figuresSection(viewer);
+  planSection(viewer);
   notesSection(viewer);
   ImGui::EndChild();
   ImGui::End();

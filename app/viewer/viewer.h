@@ -55,7 +55,8 @@ struct ViewerState {
   DisplaySettings settings;
   bool panel = true;
   bool help = false;
-  bool notes = false;  ///< those on the scene, in full
+  bool notes = false;     ///< those on the scene, in full
+  bool left_out = false;  ///< what the solve leaves out, in full
   PlotAxis plot_axis = PlotAxis::kSeconds;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/parse.h"
+
 namespace unshot {
 
 bool section(const char* title) { return ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen); }
@@ -38,6 +40,38 @@ void line(const char* name, const std::string& value, std::string_view tip) {
   const float width = ImGui::CalcTextSize(value.c_str()).x;
   ImGui::SameLine(std::max(ImGui::GetContentRegionMax().x - width, 6.6f * ImGui::GetFontSize()));
   ImGui::TextUnformatted(value.c_str());
+}
+
+void wrapped(const std::string& text) {
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+}
+
+void dimmed(const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  wrapped(text);
+  ImGui::PopStyleColor();
+}
+
+void paragraph(const char* name, std::string_view text) {
+  ImGui::TextDisabled("%s", name);
+  ImGui::SameLine(ImGui::GetCursorPosX() + 3.2f * ImGui::GetFontSize());
+  wrapped(std::string(text));
+}
+
+std::string brokenText(std::string_view text, float width) {
+  std::string out, line;
+  for (const std::string_view word : splitParts(text, ' ')) {
+    const std::string longer = line.empty() ? std::string(word) : line + " " + std::string(word);
+    if (!line.empty() && ImGui::CalcTextSize(longer.c_str()).x > width) {
+      out += line + "\n";
+      line = word;
+    } else {
+      line = longer;
+    }
+  }
+  return out + line;
 }
 
 }  // namespace unshot

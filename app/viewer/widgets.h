@@ -24,6 +24,16 @@ void dot(const ImVec4& colour);
 /// Text on the left and text at the right border.
 void line(const char* name, const std::string& value, std::string_view tip = {});
 
+/// Text over as many lines as it takes.
+void wrapped(const std::string& text);
+void dimmed(const std::string& text);
+
+/// A name on the left, and beside it text over as many lines as it takes.
+void paragraph(const char* name, std::string_view text);
+
+/// The text broken into lines no wider than this [px], as far as its words allow it.
+std::string brokenText(std::string_view text, float width);
+
 /// A choice from a table: `shown` is what stands in the closed box, `current` the key that is marked. Returns
 /// the key chosen, or nothing.
 template <class Row>

@@ -53,6 +53,15 @@ void attribute(const gl::Functions& fn, GLuint location, const gl::Buffer& buffe
                          reinterpret_cast<const void*>(offset));
 }
 
+// Position, normal and side, for the vertex array that is bound.
+void attachVertices(const gl::Functions& fn, const gl::Buffer& vertices) {
+  attribute(fn, 0, vertices, sizeof(GpuVertex), offsetof(GpuVertex, position));
+  attribute(fn, 1, vertices, sizeof(GpuVertex), offsetof(GpuVertex, normal));
+  fn.EnableVertexAttribArray(2);
+  fn.VertexAttribIPointer(2, 1, GL_UNSIGNED_INT, sizeof(GpuVertex),
+                          reinterpret_cast<const void*>(offsetof(GpuVertex, side)));
+}
+
 void attachTexels(const gl::Functions& fn, const gl::Texture& texture, GLenum format,
                   const gl::Buffer& buffer) {
   fn.BindTexture(GL_TEXTURE_BUFFER, texture.id());
@@ -75,6 +84,7 @@ void checkTexels(const gl::Functions& fn, std::size_t texels) {
 SceneBuffers::SceneBuffers(gl::Context& context)
     : context_(context),
       vertex_array_(context),
+      unlit_vertex_array_(context),
       vertices_(context),
       irradiance_(context),
       direct_(context),
@@ -86,6 +96,7 @@ SceneBuffers::SceneBuffers(gl::Context& context)
       reference_(context),
       triangles_(context),
       edges_(context),
+      unlit_(context),
       sides_(context),
       triangle_elements_(context),
       element_irradiance_(context),
@@ -188,8 +199,9 @@ const gl::Texture& SceneBuffers::bind(const LightChoice& choice, Quantity quanti
 void SceneBuffers::beginMesh(const std::shared_ptr<const Mesh>& shared_mesh) {
   const gl::Functions& fn = context_.functions();
   const Mesh& mesh = *shared_mesh;
-  checkTexels(
-      fn, std::max({mesh.triangle_element.size(), std::size_t{mesh.element_count}, 2 * mesh.sides.size()}));
+  const UnlitSurfaces unlit = unlitSurfaces(mesh);
+  const std::size_t sides_shown = mesh.sides.size() + unlit.surfaces.size();
+  checkTexels(fn, std::max({mesh.triangle_element.size(), std::size_t{mesh.element_count}, 2 * sides_shown}));
   mesh_uploads_.clear();
   mesh_ = shared_mesh;
   bounds_ = {mesh.bounds_min, mesh.bounds_max};
@@ -197,37 +209,21 @@ void SceneBuffers::beginMesh(const std::shared_ptr<const Mesh>& shared_mesh) {
     return std::shared_ptr<const std::vector<T>>(shared_mesh, &values);
   };
 
-  const std::size_t vertices = mesh.vertices.size();
-  allocate(fn, vertices_, vertices * sizeof(GpuVertex), GL_STATIC_DRAW);
-  mesh_uploads_.add<GpuVertex>(vertices_, vertices,
-                               [shared_mesh](std::size_t first, std::size_t count, GpuVertex* out) {
-                                 for (std::size_t k = 0; k < count; ++k) {
-                                   const Vertex& v = shared_mesh->vertices[first + k];
-                                   out[k] = {v.position, v.normal, v.side};
-                                 }
-                               });
-  for (const gl::Buffer* field : {&irradiance_, &direct_, &ambient_, &unshot_, &bounces_, &residual_})
-    allocate(fn, *field, vertices * sizeof(glm::vec3), GL_DYNAMIC_DRAW);
+  beginVertices(shared_mesh);
+  beginUnlit(unlit);
   sendAll(mesh_uploads_, triangles_, own(mesh.triangle_vertices));
   triangle_index_count_ = static_cast<GLsizei>(mesh.triangle_vertices.size());
   edges_uploaded_ = false;
 
-  fn.BindVertexArray(vertex_array_.id());
-  attribute(fn, 0, vertices_, sizeof(GpuVertex), offsetof(GpuVertex, position));
-  attribute(fn, 1, vertices_, sizeof(GpuVertex), offsetof(GpuVertex, normal));
-  fn.EnableVertexAttribArray(2);
-  fn.VertexAttribIPointer(2, 1, GL_UNSIGNED_INT, sizeof(GpuVertex),
-                          reinterpret_cast<const void*>(offsetof(GpuVertex, side)));
-  attribute(fn, 4, ambient_, sizeof(glm::vec3), 0);
-  attribute(fn, 5, unshot_, sizeof(glm::vec3), 0);
-  fn.BindBuffer(GL_ARRAY_BUFFER, 0);
-  fn.BindVertexArray(0);
-
-  auto sides = std::make_shared<std::vector<glm::vec4>>(std::max<std::size_t>(2 * mesh.sides.size(), 1),
-                                                        glm::vec4(0.0f));
+  auto sides =
+      std::make_shared<std::vector<glm::vec4>>(std::max<std::size_t>(2 * sides_shown, 1), glm::vec4(0.0f));
   for (std::size_t i = 0; i < mesh.sides.size(); ++i) {
     (*sides)[2 * i] = finiteTexel(mesh.sides[i].reflectance);
     (*sides)[2 * i + 1] = finiteTexel(mesh.sides[i].emission);
+  }
+  for (std::size_t i = 0; i < unlit.surfaces.size(); ++i) {
+    const Material& material = mesh.materials[mesh.surfaces[unlit.surfaces[i]].material];
+    (*sides)[2 * (mesh.sides.size() + i)] = finiteTexel(material.reflectance);
   }
   sendAll<glm::vec4>(mesh_uploads_, sides_, std::move(sides));
   sendAll(mesh_uploads_, triangle_elements_, own(mesh.triangle_element));
@@ -239,6 +235,48 @@ void SceneBuffers::beginMesh(const std::shared_ptr<const Mesh>& shared_mesh) {
   attachTexels(fn, element_irradiance_texture_, GL_RGBA32F, element_irradiance_);
   attachTexels(fn, element_direct_texture_, GL_RGBA32F, element_direct_);
 }
+
+void SceneBuffers::beginVertices(const std::shared_ptr<const Mesh>& shared_mesh) {
+  const gl::Functions& fn = context_.functions();
+  const std::size_t vertices = shared_mesh->vertices.size();
+  allocate(fn, vertices_, vertices * sizeof(GpuVertex), GL_STATIC_DRAW);
+  mesh_uploads_.add<GpuVertex>(vertices_, vertices,
+                               [shared_mesh](std::size_t first, std::size_t count, GpuVertex* out) {
+                                 for (std::size_t k = 0; k < count; ++k) {
+                                   const Vertex& v = shared_mesh->vertices[first + k];
+                                   out[k] = {v.position, v.normal, v.side};
+                                 }
+                               });
+  for (const gl::Buffer* field : {&irradiance_, &direct_, &ambient_, &unshot_, &bounces_, &residual_})
+    allocate(fn, *field, vertices * sizeof(glm::vec3), GL_DYNAMIC_DRAW);
+  fn.BindVertexArray(vertex_array_.id());
+  attachVertices(fn, vertices_);
+  attribute(fn, 4, ambient_, sizeof(glm::vec3), 0);
+  attribute(fn, 5, unshot_, sizeof(glm::vec3), 0);
+  fn.BindBuffer(GL_ARRAY_BUFFER, 0);
+  fn.BindVertexArray(0);
+}
+
+/// In three attributes of vertices; those of the light stay OpenGL's default, which is 0.
+void SceneBuffers::beginUnlit(const UnlitSurfaces& unlit) {
+  const gl::Functions& fn = context_.functions();
+  unlit_corners_ = unlit.corners.size();
+  if (unlit_corners_ == 0) return;
+  auto corners = std::make_shared<std::vector<GpuVertex>>();
+  corners->reserve(unlit_corners_);
+  for (std::size_t k = 0; k < unlit_corners_; ++k) {
+    const Surface& surface = mesh_->surfaces[unlit.surfaces[unlit.of[k]]];
+    corners->push_back({unlit.corners[k], glm::vec3(surface.normal),
+                        static_cast<std::uint32_t>(mesh_->sides.size()) + unlit.of[k]});
+  }
+  sendAll<GpuVertex>(mesh_uploads_, unlit_, std::move(corners));
+  fn.BindVertexArray(unlit_vertex_array_.id());
+  attachVertices(fn, unlit_);
+  fn.BindBuffer(GL_ARRAY_BUFFER, 0);
+  fn.BindVertexArray(0);
+}
+
+void SceneBuffers::bindUnlit() const { context_.functions().BindVertexArray(unlit_vertex_array_.id()); }
 
 void SceneBuffers::uploadEdges() {
   if (edges_uploaded_) return;

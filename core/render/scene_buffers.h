@@ -8,6 +8,7 @@
 #include "render/camera.h"
 #include "render/display_modes.h"
 #include "render/reference_light.h"
+#include "render/unlit_surfaces.h"
 #include "render/uploads.h"
 #include "session/snapshot.h"
 
@@ -33,6 +34,8 @@ class SceneBuffers {
   /// direct light alone.
   const gl::Texture& bind(const LightChoice& light, Quantity quantity,
                           const std::shared_ptr<const ReferenceLight>& reference);
+  /// Binds the vertex array of surfaces without a lit side: no light, nothing of any quantity.
+  void bindUnlit() const;
   /// Whether this quantity has a field of its own beside the light.
   bool hasField(Quantity quantity) const { return fieldOf(quantity) != nullptr; }
 
@@ -45,6 +48,7 @@ class SceneBuffers {
   const gl::Buffer& triangles() const { return triangles_; }
   const gl::Buffer& edges() const { return edges_; }
   std::size_t triangleCount() const { return static_cast<std::size_t>(triangle_index_count_) / 3; }
+  std::size_t unlitCount() const { return unlit_corners_ / 3; }  ///< triangles of bindUnlit()
   std::size_t edgeCount() const { return static_cast<std::size_t>(edge_index_count_) / 2; }
   const gl::Texture& sides() const { return sides_texture_; }
   const gl::Texture& triangleElements() const { return triangle_elements_texture_; }
@@ -53,6 +57,8 @@ class SceneBuffers {
   using SharedField = std::shared_ptr<const std::vector<glm::vec3>>;
 
   void beginMesh(const std::shared_ptr<const Mesh>& mesh);
+  void beginVertices(const std::shared_ptr<const Mesh>& mesh);
+  void beginUnlit(const UnlitSurfaces& unlit);
   /// Where the light that is meant is, brought up to date.
   struct LightBuffers {
     const gl::Buffer& vertices;
@@ -69,19 +75,20 @@ class SceneBuffers {
   SharedField direct_field_, element_direct_field_, bounces_field_, residual_field_;  // as uploaded
   Bounds bounds_;
   glm::dvec3 sky_{0.0};
-  gl::VertexArray vertex_array_;
+  gl::VertexArray vertex_array_, unlit_vertex_array_;
   std::shared_ptr<const BounceLight> bounce_light_;         // of the snapshot
   std::shared_ptr<const MeshField> bounce_field_;           // as uploaded
   std::shared_ptr<const ReferenceLight> direct_reference_;  // where there is no other
   std::shared_ptr<const ReferenceLight> reference_light_;   // as uploaded
   gl::Buffer vertices_, irradiance_, direct_, ambient_, unshot_, bounces_, residual_, bounce_irradiance_,
       reference_;
-  gl::Buffer triangles_, edges_;
+  gl::Buffer triangles_, edges_, unlit_;
   gl::Buffer sides_, triangle_elements_, element_irradiance_, element_direct_, element_bounce_;
   gl::Texture sides_texture_, triangle_elements_texture_, element_irradiance_texture_,
       element_direct_texture_, element_bounce_texture_;
   GLsizei triangle_index_count_ = 0;
   GLsizei edge_index_count_ = 0;
+  std::size_t unlit_corners_ = 0;
   bool edges_uploaded_ = false;
 };
 

@@ -47,7 +47,7 @@ std::size_t SceneView::pieceCount(const ViewOptions& options, bool with_edges) {
   if (!buffers_.mesh()) return 0;
   const bool edges = with_edges && displayMode(options.display).edges;
   if (edges) buffers_.uploadEdges();
-  return buffers_.triangleCount() + (edges ? buffers_.edgeCount() : 0);
+  return buffers_.triangleCount() + buffers_.unlitCount() + (edges ? buffers_.edgeCount() : 0);
 }
 
 void SceneView::drawLinear(const Camera& camera, double aspect, const FrameWindow& window,
@@ -98,7 +98,7 @@ void SceneView::drawPieces(const Camera& camera, double aspect, const FrameWindo
     fn.DrawElements(kind, static_cast<GLsizei>(corners * (end - first)), GL_UNSIGNED_INT,
                     reinterpret_cast<const void*>(corners * first * sizeof(std::uint32_t)));
   };
-  const std::size_t triangles = buffers_.triangleCount();
+  const std::size_t triangles = buffers_.triangleCount(), faces = triangles + buffers_.unlitCount();
   const std::size_t end = pieces.first + pieces.count;
   if (pieces.first < triangles) {
     const bool by_pixel = mode.per_element || buffers_.hasField(mode.quantity);
@@ -108,14 +108,40 @@ void SceneView::drawPieces(const Camera& camera, double aspect, const FrameWindo
     fn.Uniform1i(program.uniform("first_triangle"), static_cast<GLint>(pieces.first));
     draw(GL_TRIANGLES, buffers_.triangles(), 3, pieces.first, std::min(end, triangles));
   }
-  if (end > triangles) {
+  if (end > triangles && pieces.first < faces) {
+    const std::size_t first = std::max(pieces.first, triangles);
+    drawUnlit(matrix, camera, options, element_light, first - triangles, std::min(end, faces) - first);
+  }
+  if (end > faces) {
+    buffers_.bind(options.light, mode.quantity, options.reference);
     useDisplay(by_pixel_program_, matrix, camera, options, element_light);
     fn.Uniform1i(by_pixel_program_.uniform("edges"), 1);
     fn.Enable(GL_CLIP_DISTANCE0);
-    draw(GL_LINES, buffers_.edges(), 2, std::max(pieces.first, triangles) - triangles, end - triangles);
+    draw(GL_LINES, buffers_.edges(), 2, std::max(pieces.first, faces) - faces, end - faces);
     fn.Disable(GL_CLIP_DISTANCE0);
   }
   fn.BindVertexArray(0);
+}
+
+void SceneView::drawUnlit(const glm::mat4& matrix, const Camera& camera, const ViewOptions& options,
+                          const gl::Texture& element_light, std::size_t first, std::size_t count) {
+  if (count == 0) return;
+  const gl::Functions& fn = context_.functions();
+  const gl::Program& program =
+      buffers_.hasField(displayMode(options.display).quantity) ? by_pixel_program_ : display_program_;
+  useDisplay(program, matrix, camera, options, element_light);
+  fn.Uniform1i(program.uniform("edges"), 0);
+  fn.Uniform1i(program.uniform("per_element"), 0);
+  buffers_.bindUnlit();
+  fn.Disable(GL_CULL_FACE);
+  // One in the plane of a lit side, such as the wall of a dark room against a lit one, lies behind it.
+  const float away = DepthSetup(fn).range == DepthRange::kReversed ? -1.0f : 1.0f;
+  fn.Enable(GL_POLYGON_OFFSET_FILL);
+  fn.PolygonOffset(away, 4 * away);
+  fn.DrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * first), static_cast<GLsizei>(3 * count));
+  fn.PolygonOffset(0, 0);
+  fn.Disable(GL_POLYGON_OFFSET_FILL);
+  fn.Enable(GL_CULL_FACE);
 }
 
 double SceneView::exposureFor(const Camera& camera, double aspect, const ViewOptions& options) {

@@ -1,8 +1,9 @@
 // Draws a snapshot, for the window and for pictures alike.
 //
 // Two passes: the display triangles into a linear float target (values in W/m^2, whatever their scale), then
-// exposure, tone curve and sRGB encoding into the framebuffer that was bound. Sides without elements are not
-// drawn: a closed room seen from outside is open like a doll's house.
+// exposure, tone curve and sRGB encoding into the framebuffer that was bound. A side without
+// elements is not drawn where the other one has some: a closed room seen from outside is open like a doll's
+// house. Surfaces without elements on either side are drawn black.
 #pragma once
 
 #include <memory>
@@ -39,7 +40,8 @@ struct Viewport {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
-/// Some of what a picture is drawn from: its triangles, in their order, then its edges.
+/// Some of what a picture is drawn from: its triangles, in their order, then those of surfaces without a lit
+/// side, then its edges.
 struct Pieces {
   std::size_t first = 0, count = 0;
 };
@@ -88,6 +90,9 @@ class SceneView {
  private:
   void useDisplay(const gl::Program& program, const glm::mat4& matrix, const Camera& camera,
                   const ViewOptions& options, const gl::Texture& element_light) const;
+  /// Triangles of surfaces without a lit side.
+  void drawUnlit(const glm::mat4& matrix, const Camera& camera, const ViewOptions& options,
+                 const gl::Texture& element_light, std::size_t first, std::size_t count);
   const LinearTarget& target(LinearTarget& kept, int width, int height);
 
   gl::Context& context_;

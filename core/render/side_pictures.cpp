@@ -66,10 +66,11 @@ void SidePictures::upload(const Mesh& mesh) {
   std::vector<std::uint32_t> indices;
   std::vector<glm::uvec2> sides;
   for (const Surface& surface : mesh.surfaces) {
-    if (surface.side[0] == kNone && surface.side[1] == kNone) continue;
     for (std::uint32_t t = surface.triangles.first; t < surface.triangles.end(); ++t) {
       for (const std::uint32_t corner : mesh.triangles[t].position) indices.push_back(corner);
-      sides.emplace_back(surface.side[0] + 1, surface.side[1] + 1);  // kNone + 1 is 0
+      const bool unlit = surface.side[0] == kNone && surface.side[1] == kNone;
+      // kNone + 1 is 0.
+      sides.push_back(unlit ? glm::uvec2(kNone) : glm::uvec2(surface.side[0] + 1, surface.side[1] + 1));
     }
   }
   index_count_ = static_cast<GLsizei>(indices.size());

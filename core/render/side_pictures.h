@@ -16,7 +16,8 @@ class SidePictures {
   SidePictures(gl::Context& context, const Mesh& mesh, int width, int height);
 
   GLsizei triangles() const { return index_count_ / 3; }
-  /// Side + 1 or 0, one per pixel, lowest row first.
+  /// Side + 1, or 0 for none (where surfaces without a lit side hide others too), one per pixel, lowest row
+  /// first.
   std::vector<std::uint32_t> look(const Camera& camera);
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 
 #include "base/text.h"
 #include "formfactor/methods.h"
@@ -89,6 +90,11 @@ DoAnyway doAnyway(std::string_view list) {
 
 bool leavesOut(const DoAnyway& done, std::string_view key) {
   return std::find(done.begin(), done.end(), key) == done.end();
+}
+
+bool doesAll(const DoAnyway& done) {
+  return std::none_of(std::begin(kRows), std::end(kRows),
+                      [&](const PlanRow& row) { return leavesOut(done, row.info.key); });
 }
 
 std::vector<PlanDecision> makePlan(const Scene& scene, const Mesh& mesh, std::string_view form_factors,

@@ -39,6 +39,8 @@ using DoAnyway = std::vector<std::string>;
 DoAnyway doAll();
 /// Keys from a list with commas; throws a usage Error for one that is not in the table.
 DoAnyway doAnyway(std::string_view list);
+/// Whether all keys are among them.
+bool doesAll(const DoAnyway& done);
 bool leavesOut(const DoAnyway& done, std::string_view key);
 
 /// Something that a solve leaves out, with the fact that it was decided by.

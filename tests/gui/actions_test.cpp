@@ -68,6 +68,9 @@ const std::map<std::string_view, std::string>& validArguments() {
       {"race", "southwell"},
       {"form-factors", "hemicube"},
       {"elements", "300"},
+      {"do", "triangles on"},
+      {"do-all", "off"},
+      {"left-out", "on"},
       {"sky", "0.5,0.5,1"},
       {"hemicube", "32"},
       {"error", "0.02"},
@@ -147,8 +150,8 @@ LiveViewer::Options cornellBox() {
 
 /// Performs it and runs until it is carried out and shown.
 void performAndSettle(LiveViewer& live, const Action& action, const std::string& argument) {
-  static const std::set<std::string_view> kSolveAnew{"open",     "restart",  "form-factors",
-                                                     "elements", "hemicube", "again"};
+  static const std::set<std::string_view> kSolveAnew{"open",     "restart", "form-factors", "elements",
+                                                     "hemicube", "again",   "do",           "do-all"};
   const std::uint64_t epoch = live->state().epoch;
   live->perform(action.key, argument);
   for (int frame = 0; frame < 5; ++frame) live.draw();

@@ -1,0 +1,66 @@
+// What actions take as their arguments: a check for each kind, which says what is wrong or nothing, and what
+// the text means once it was checked.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/parse.h"
+#include "viewer/viewer.h"
+
+namespace unshot {
+
+/// A whole number from `low` to `high`.
+template <std::uint64_t low, std::uint64_t high>
+std::string checkWhole(const std::string& text) {
+  const std::optional<double> number = parseNumber(text);
+  const bool fits = number && *number >= static_cast<double>(low) && *number <= static_cast<double>(high) &&
+                    *number == std::floor(*number);
+  return fits ? std::string()
+              : "'" + text + "' is no whole number from " + std::to_string(low) + " to " +
+                    std::to_string(high);
+}
+std::uint64_t whole(const std::string& text);
+
+/// A key of a table.
+template <class Row>
+std::string checkKey(std::span<const Row> table, bool with_auto, const std::string& text) {
+  std::string keys = with_auto ? "auto" : "";
+  if (with_auto && text == "auto") return {};
+  for (const Row& row : table) {
+    if (row.info.key == text) return {};
+    keys += (keys.empty() ? "" : ", ") + std::string(row.info.key);
+  }
+  return "there is no '" + text + "'; it is one of " + keys;
+}
+
+std::string checkSwitch(const std::string& text);
+/// "on", "off", or nothing: the other one.
+void setSwitch(bool& value, const std::string& text);
+
+/// A key of the plan and "on", "off", or nothing: the other one.
+std::string checkDo(const std::string& text);
+void setDo(DoAnyway& done, const std::string& text);
+
+std::string checkFraction(const std::string& text);
+std::string checkNumber(const std::string& text);
+std::string checkBounces(const std::string& text);
+std::string checkScale(const std::string& text);
+/// Nothing for text that is none.
+std::optional<PlotAxis> plotAxis(const std::string& text);
+
+/// WIDTHxHEIGHT.
+std::string checkSize(const std::string& text);
+std::optional<std::pair<int, int>> sizeOf(const std::string& text);
+
+/// ex,ey,ez,ax,ay,az[,fov].
+std::string checkCamera(const std::string& text);
+/// Numbers between commas; none where one of them is no number.
+std::vector<double> numbersOf(const std::string& text);
+
+}  // namespace unshot
