@@ -11,6 +11,7 @@
 #include "bench/frame_table.h"
 #include "bench/method_table.h"
 #include "bench/picture_table.h"
+#include "bench/plan_table.h"
 #include "bench/reference_table.h"
 #include "bench/scene_table.h"
 
@@ -40,6 +41,14 @@ void printDrawings(bool quick) {
   } else {
     unshot::bench::printDrawingTable(sceneFolders(quick), 100, SIZE_MAX);
   }
+}
+
+void printPlans(bool quick, double seconds) {
+  std::vector<std::filesystem::path> scenes;
+  for (const char* name : {"furnace", "two_patches", "cornell_box", "two_rooms"})
+    scenes.push_back(std::filesystem::path(UNSHOT_SOURCE_DIR "/assets") / (std::string(name) + ".obj"));
+  if (quick) scenes.resize(1);
+  unshot::bench::printPlanTable(scenes, quick ? seconds : 6 * seconds);
 }
 
 void printFrames(bool quick) {
@@ -72,7 +81,8 @@ int main(int argc, char** argv) {
           "usage: unshot_bench [--seconds T] [--quick] [--only TABLE]\n"
           "  --seconds T  time for each scene (default 10)\n"
           "  --quick      a short run that only shows that everything works\n"
-          "  --only T     one table: pictures, drawings, methods, scenes, frames, reference or estimates\n"
+          "  --only T     one table: pictures, drawings, methods, scenes, plan, frames, reference or "
+          "estimates\n"
           "UNSHOT_SCENES names a folder of further scenes, with reference values in its folder truth.\n");
       return 2;
     }
@@ -83,6 +93,7 @@ int main(int argc, char** argv) {
     if (wanted("drawings")) printDrawings(quick);
     if (wanted("methods")) unshot::bench::printMethodTable(quick);
     if (wanted("scenes")) unshot::bench::printSceneTable(sceneFolders(quick), seconds);
+    if (wanted("plan")) printPlans(quick, seconds);
     if (wanted("frames")) printFrames(quick);
     if (wanted("estimates")) unshot::bench::printEstimateTable(quick);
     if (wanted("reference")) unshot::bench::printReferenceTable(quick ? 8 : 256, quick ? 0.3 : 0.01);

@@ -66,7 +66,7 @@ TEST(PlanPanel, SaysWhyHowMuchAndHowSure) {
   const std::vector<PlanLine> lines = planLines(*live->state().facts);
   ASSERT_EQ(lines.size(), live->state().facts->plan.size());
   ASSERT_FALSE(lines.empty());
-  EXPECT_EQ(lines[0].key, plan_keys::kDarkSides);
+  EXPECT_EQ(lines[0].key, plan_keys::kOuterSides);
   for (const PlanLine& line : lines) {
     EXPECT_TRUE(line.left_out);
     EXPECT_FALSE(line.title.empty() || line.why.empty() || line.saving.empty() || line.sure.empty())
@@ -79,15 +79,15 @@ TEST(PlanPanel, ALineIsOpenedAndSwitchedOffAndOn) {
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
   live.draw();
   live.draw();
-  const ImGuiID line = idOf("###line", idOf(plan_keys::kDarkSides, sectionsOfPanel()));
+  const ImGuiID line = idOf("###line", idOf(plan_keys::kOuterSides, sectionsOfPanel()));
   click(live, line);
   for (const bool done : {true, false}) {
     const std::uint64_t epoch = live->state().epoch;
     click(live, idOf("Do it all the same", line));
-    EXPECT_EQ(!leavesOut(live->ui().options.do_anyway, plan_keys::kDarkSides), done);
+    EXPECT_EQ(!leavesOut(live->ui().options.do_anyway, plan_keys::kOuterSides), done);
     ASSERT_TRUE(solvedAnew(live, epoch));
     EXPECT_THAT(planLines(*live->state().facts)[0],
-                AllOf(Field(&PlanLine::key, plan_keys::kDarkSides), Field(&PlanLine::left_out, !done)));
+                AllOf(Field(&PlanLine::key, plan_keys::kOuterSides), Field(&PlanLine::left_out, !done)));
   }
   EXPECT_FALSE(live->error());
 }
@@ -111,12 +111,12 @@ TEST(PlanPanel, EverythingIsSwitchedAtOnce) {
 
 TEST(PlanPanel, ScriptsSwitchByKey) {
   LiveViewer live(
-      cornellBox("wait converged\ndo dark-sides on\nwait converged\ndo triangles\nwait converged\n"));
+      cornellBox("wait converged\ndo outer-sides on\nwait converged\ndo triangles\nwait converged\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
   const Mesh& mesh = *live->state().snapshot->mesh;
   EXPECT_EQ(mesh.sides.size(), 2 * mesh.surfaces.size());
   EXPECT_THAT(live->state().facts->options.do_anyway,
-              ElementsAre(plan_keys::kDarkSides, plan_keys::kTriangles));
+              ElementsAre(plan_keys::kOuterSides, plan_keys::kTriangles));
   live->perform("do", "dark-side on");
   ASSERT_TRUE(live->error());
   EXPECT_THAT(live->error()->what(), HasSubstr("dark-sides, triangles"));
