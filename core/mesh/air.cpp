@@ -1,21 +1,12 @@
 #include "mesh/air.h"
 
-#include <algorithm>
-#include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <glm/geometric.hpp>
 #include <numeric>
+
+#include "mesh/edge_fan.h"
 
 namespace unshot {
 namespace {
-
-constexpr double kNoWedge = 1e-3;  // radians: surfaces on top of each other have no air between them
-
-// A surface around an edge: at which angle it leaves the edge, and the patches of its sides there, the one
-// that faces growing angles and the one that faces falling ones (kNone where no light can reach).
-struct Leaf {
-  double angle;
-  std::uint32_t ahead, behind;
-};
 
 class AirJoiner {
  public:
@@ -27,26 +18,15 @@ class AirJoiner {
   // `uses`: all edges between the same two points.
   void joinAround(std::span<const PieceEdge> uses) {
     if (uses.size() < 2) return;
-    const glm::dvec3 axis = points_[uses[0].high] - points_[uses[0].low];
-    const double length = glm::length(axis);
-    if (length == 0) return;
-    leaves_.clear();
-    const glm::dvec3 across = inward(uses[0], axis / length);
-    const glm::dvec3 ahead = glm::cross(axis / length, across);
-    for (const PieceEdge& use : uses) {
-      const glm::dvec3 d = inward(use, axis / length);
-      const std::uint32_t front = patchOf(use, 0), back = patchOf(use, 1);
-      leaves_.push_back({std::atan2(glm::dot(d, ahead), glm::dot(d, across)), use.forward ? front : back,
-                         use.forward ? back : front});
-    }
-    std::sort(leaves_.begin(), leaves_.end(), [](const Leaf& a, const Leaf& b) { return a.angle < b.angle; });
-    for (std::size_t k = 0; k < leaves_.size(); ++k) {
-      const bool last = k + 1 == leaves_.size();
-      const Leaf &one = leaves_[k], &two = leaves_[last ? 0 : k + 1];
-      const double wedge = two.angle - one.angle + (last ? 2 * glm::pi<double>() : 0.0);
-      if (wedge < kNoWedge || one.ahead == kNone || two.behind == kNone) continue;
-      mesh_.patch_air[find(one.ahead)] = find(two.behind);
-    }
+    const glm::dvec3 along = points_[uses[0].high] - points_[uses[0].low];
+    if (along == glm::dvec3(0.0)) return;
+    forWedges(
+        along, uses, [&](const PieceEdge& use) { return mesh_.surfaces[use.surface].normal; },
+        [&](const PieceEdge& use, int back) { return patchOf(use, back); },
+        [&](const FanLeaf& one, const FanLeaf& two, double wedge) {
+          if (wedge < kNoWedge || one.ahead == kNone || two.behind == kNone) return;
+          mesh_.patch_air[find(one.ahead)] = find(two.behind);
+        });
   }
 
   void flatten() {
@@ -54,12 +34,6 @@ class AirJoiner {
   }
 
  private:
-  // The direction in the surface, across the edge, into the piece.
-  glm::dvec3 inward(const PieceEdge& use, const glm::dvec3& axis) const {
-    const glm::dvec3 left = glm::cross(mesh_.surfaces[use.surface].normal, axis);
-    return use.forward ? left : -left;
-  }
-
   std::uint32_t patchOf(const PieceEdge& use, int back) const {
     const Surface& surface = mesh_.surfaces[use.surface];
     if (surface.side[back] == kNone) return kNone;
@@ -75,7 +49,6 @@ class AirJoiner {
 
   Mesh& mesh_;
   std::span<const glm::dvec3> points_;
-  std::vector<Leaf> leaves_;
 };
 
 }  // namespace

@@ -5,30 +5,21 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
 #include <map>
 #include <numeric>
 
 #include "base/box_tree.h"
 #include "base/random.h"
+#include "mesh/edge_fan.h"
 
 namespace unshot {
 namespace {
 
-// Radians: surfaces on top of each other.
-constexpr double kNoWedge = 1e-3;
 // Of the weld distance: what comes nearer to a line than this is not told to be on either side of it.
 constexpr double kTooNear = 0.01;
 constexpr int kTries = 8;
 // Of a plane to a line, as a cosine to its normal.
 constexpr double kLeastSlope = 1e-3;
-
-// A surface around an edge: at which angle it leaves the edge, its side that faces growing angles and the one
-// that faces falling ones.
-struct Leaf {
-  double angle;
-  std::uint32_t ahead, behind;
-};
 
 std::uint32_t rootOf(std::vector<std::uint32_t>& forest, std::uint32_t k) {
   while (forest[k] != k) k = forest[k] = forest[forest[k]];
@@ -214,30 +205,16 @@ void Shells::joinAtEdges() {
 }
 
 void Shells::joinAround(std::span<const SurfaceEdge> uses) {
-  const glm::dvec3 along = mesh_.positions[uses[0].b] - mesh_.positions[uses[0].a];
-  const glm::dvec3 axis = along / glm::length(along);  // welded points are apart
-  const auto inward = [&](const SurfaceEdge& use) {
-    const glm::dvec3 left = glm::cross(mesh_.surfaces[use.surface].normal, axis);
-    return use.forward ? left : -left;
-  };
-  const glm::dvec3 across = inward(uses[0]), ahead = glm::cross(axis, across);
-  std::vector<Leaf> leaves;
-  for (const SurfaceEdge& use : uses) {
-    const glm::dvec3 d = inward(use);
-    const std::uint32_t front = 2 * use.surface, back = front + 1;
-    leaves.push_back({std::atan2(glm::dot(d, ahead), glm::dot(d, across)), use.forward ? front : back,
-                      use.forward ? back : front});
-  }
-  std::sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) { return a.angle < b.angle; });
-  for (std::size_t k = 0; k < leaves.size(); ++k) {
-    const bool last = k + 1 == leaves.size();
-    const Leaf &one = leaves[k], &two = leaves[last ? 0 : k + 1];
-    const double wedge = two.angle - one.angle + (last ? 2 * glm::pi<double>() : 0.0);
-    join(one.ahead, two.behind);
-    if (wedge >= kNoWedge) continue;  // else it is not known which of the two comes first
-    join(one.ahead, one.behind);
-    join(two.ahead, two.behind);
-  }
+  forWedges(
+      mesh_.positions[uses[0].b] - mesh_.positions[uses[0].a], uses,
+      [&](const SurfaceEdge& use) { return mesh_.surfaces[use.surface].normal; },
+      [&](const SurfaceEdge& use, int back) { return 2 * use.surface + static_cast<std::uint32_t>(back); },
+      [&](const FanLeaf& one, const FanLeaf& two, double wedge) {
+        join(one.ahead, two.behind);
+        if (wedge >= kNoWedge) return;  // else it is not known which of the two comes first
+        join(one.ahead, one.behind);
+        join(two.ahead, two.behind);
+      });
 }
 
 void Shells::joinCrossing(std::span<const Crossing> crossings) {
