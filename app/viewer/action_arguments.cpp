@@ -1,6 +1,7 @@
 #include "viewer/action_arguments.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "solver/bounce_series.h"
 
@@ -11,6 +12,23 @@ namespace {
 std::pair<std::string, std::string> keyAndSwitch(const std::string& text) {
   const std::size_t space = std::min(text.find(' '), text.size());
   return {text.substr(0, space), std::string(trimmed(std::string_view(text).substr(space)))};
+}
+
+/// What stands before the last space, and after it.
+std::pair<std::string, std::string> nameAndLast(const std::string& text) {
+  const std::size_t space = text.rfind(' ');
+  if (space == std::string::npos) return {{}, text};
+  return {std::string(trimmed(std::string_view(text).substr(0, space))), text.substr(space + 1)};
+}
+
+std::string checkColour(const std::string& text, double most) {
+  const auto [name, colour] = nameAndLast(text);
+  const std::vector<double> n = numbersOf(colour);
+  const bool fits =
+      n.size() == 3 && std::all_of(n.begin(), n.end(), [&](double x) { return x >= 0 && x <= most; });
+  if (name.empty() || !fits)
+    return "'" + text + "' is no name of a material and r,g,b from 0 on" + (most == 1 ? " to 1" : "");
+  return {};
 }
 
 }  // namespace
@@ -35,6 +53,30 @@ void setDo(DoAnyway& done, const std::string& text) {
   setSwitch(wanted, on);
   std::erase(done, key);
   if (wanted) done.push_back(key);
+}
+
+std::string checkReflectance(const std::string& text) { return checkColour(text, 1); }
+
+std::string checkEmission(const std::string& text) {
+  return checkColour(text, std::numeric_limits<double>::max());
+}
+
+std::pair<std::string, glm::dvec3> materialAndColour(const std::string& text) {
+  const auto [name, colour] = nameAndLast(text);
+  const std::vector<double> n = numbersOf(colour);
+  return {name, {n[0], n[1], n[2]}};
+}
+
+std::string checkLight(const std::string& text) {
+  const auto [name, on] = nameAndLast(text);
+  return !name.empty() && (on == "on" || on == "off")
+             ? ""
+             : "'" + text + "' is no name of a material and on or off";
+}
+
+std::pair<std::string, bool> materialAndSwitch(const std::string& text) {
+  const auto [name, on] = nameAndLast(text);
+  return {name, on == "on"};
 }
 
 std::string checkFraction(const std::string& text) {

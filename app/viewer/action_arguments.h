@@ -47,6 +47,14 @@ void setSwitch(bool& value, const std::string& text);
 std::string checkDo(const std::string& text);
 void setDo(DoAnyway& done, const std::string& text);
 
+/// The name of a material, which may hold spaces, and r,g,b from 0 on; of reflectances to 1.
+std::string checkReflectance(const std::string& text);
+std::string checkEmission(const std::string& text);
+std::pair<std::string, glm::dvec3> materialAndColour(const std::string& text);
+/// The name of a material and "on" or "off".
+std::string checkLight(const std::string& text);
+std::pair<std::string, bool> materialAndSwitch(const std::string& text);
+
 std::string checkFraction(const std::string& text);
 std::string checkNumber(const std::string& text);
 std::string checkBounces(const std::string& text);

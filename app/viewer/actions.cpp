@@ -119,6 +119,42 @@ const std::
                          v.restart();
                        },
                        checkSwitch},
+                Action{"reflectance", "MATERIAL r,g,b",
+                       "Give a material another reflectance; the solve goes on with it", kNone,
+                       [](Viewer& v, const std::string& a) {
+                         const auto [name, colour] = materialAndColour(a);
+                         v.edit([&](MaterialEdits& edits) {
+                           edits.setReflectance(edits.find(name), colour, v.gesture());
+                         });
+                       },
+                       checkReflectance, true},
+                Action{"emission", "MATERIAL r,g,b",
+                       "Give a material another emission [W/m^2]; the solve goes on with it", kNone,
+                       [](Viewer& v, const std::string& a) {
+                         const auto [name, colour] = materialAndColour(a);
+                         v.edit([&](MaterialEdits& edits) {
+                           edits.setEmission(edits.find(name), colour, v.gesture());
+                         });
+                       },
+                       checkEmission, true},
+                Action{"light", "MATERIAL on|off", "Make a material a light, or none",
+                       kNone, [](Viewer& v, const std::string& a) {
+                         const auto [name, on] = materialAndSwitch(a);
+                         v.edit([&](MaterialEdits& edits) { edits.setLight(edits.find(name), on); });
+                       },
+                       checkLight, true},
+                Action{"undo", "", "Take the last change of a material back",
+                       {GLFW_KEY_Z, true, "Ctrl+Z"},
+                       [](Viewer& v, const std::string&) { v.edit([](MaterialEdits& e) { e.undo(); }); }},
+                Action{"redo", "", "Change it again",
+                       {GLFW_KEY_Y, true, "Ctrl+Y"},
+                       [](Viewer& v, const std::string&) { v.edit([](MaterialEdits& e) { e.redo(); }); }},
+                Action{"reset-materials", "", "All materials as the scene was opened", kNone,
+                       [](Viewer& v, const std::string&) { v.edit([](MaterialEdits& e) { e.reset(); }); }},
+                Action{"save-materials", "[PATH]", "Write reflectance and emission of all materials as MTL",
+                       kNone, [](Viewer& v, const std::string& a) { v.saveMaterials(a); }, nullptr, true},
+                Action{"materials", "[on|off]", "Show or hide the materials, in the panel", kNone,
+                       [](Viewer& v, const std::string& a) { setSwitch(v.ui().materials, a); }, checkSwitch},
                 Action{"sky", "r,g,b",
                        "Solve again under a uniform sky of this radiosity [W/m^2] (auto: 1,1,1 where no face "
                        "emits)",

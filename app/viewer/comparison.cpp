@@ -184,7 +184,7 @@ void buildLegend(const SessionState& state, const ViewOptions& view) {
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing |
                    ImGuiWindowFlags_NoInputs);
   if (difference) {
-    const bool fits = view.reference && view.reference->mesh == state.snapshot->mesh;
+    const bool fits = view.reference && view.reference->mesh->cut == state.snapshot->mesh->cut;
     differenceLegend(light.empty() ? "all light" : light, fits ? view.reference->name : "direct light alone");
   } else {
     ImGui::TextUnformatted(light.c_str());

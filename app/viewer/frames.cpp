@@ -128,7 +128,7 @@ void Viewer::takeSnapshot(double now) {
   if (scene_.has(state_->snapshot, rivalSnapshot())) return;
   // What is half drawn is of one state; the next picture shows the new one.
   const bool same_mesh =
-      state_->snapshot && scene_.snapshot() && state_->snapshot->mesh == scene_.snapshot()->mesh;
+      state_->snapshot && scene_.snapshot() && state_->snapshot->mesh->cut == scene_.snapshot()->mesh->cut;
   if (same_mesh && sceneStands() && scene_.drawing()) return;
   // A picture that is drawn for another reason shows the newest.
   const bool drawn_anyway = sceneStands() && scene_.outdated(wanted());

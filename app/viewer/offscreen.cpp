@@ -53,31 +53,35 @@ int runOffscreen(ViewerSetup setup, const std::string& provider, int width, int 
   const gl::Texture texture(*display);
   const gl::Framebuffer framebuffer(*display);
   const gl::Functions& fn = display->functions();
-  double last = wallSeconds();
-  int target_width = 0, target_height = 0;
-  while (!viewer.closing() && !viewer.scriptDone()) {
-    viewer.update(wallSeconds());
-    const double now = wallSeconds();
-    if (viewer.nextFrame(now) <= now) {
-      if (!viewer.prepare()) continue;
-      if (target_width != width || target_height != height) {
-        fn.BindTexture(GL_TEXTURE_2D, texture.id());
-        fn.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
-        fn.BindTexture(GL_TEXTURE_2D, 0);
-        fn.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
-        fn.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.id(), 0);
-        framebuffer.checkComplete("the viewer without a window");
-        target_width = width;
-        target_height = height;
+  try {
+    double last = wallSeconds();
+    int target_width = 0, target_height = 0;
+    while (!viewer.closing() && !viewer.scriptDone()) {
+      viewer.update(wallSeconds());
+      const double now = wallSeconds();
+      if (viewer.nextFrame(now) <= now) {
+        if (!viewer.prepare()) continue;
+        if (target_width != width || target_height != height) {
+          fn.BindTexture(GL_TEXTURE_2D, texture.id());
+          fn.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+          fn.BindTexture(GL_TEXTURE_2D, 0);
+          fn.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+          fn.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.id(), 0);
+          framebuffer.checkComplete("the viewer without a window");
+          target_width = width;
+          target_height = height;
+        }
+        ImGuiIO& io = ImGui::GetIO();
+        io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
+        io.DeltaTime = static_cast<float>(std::clamp(now - last, 1e-4, 0.1));
+        last = now;
+        if (viewer.draw(framebuffer.id(), width, height)) viewer.presented();
+        continue;
       }
-      ImGuiIO& io = ImGui::GetIO();
-      io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
-      io.DeltaTime = static_cast<float>(std::clamp(now - last, 1e-4, 0.1));
-      last = now;
-      if (viewer.draw(framebuffer.id(), width, height)) viewer.presented();
-      continue;
+      bell.wait(std::clamp(std::min(viewer.nextFrame(now), viewer.nextUpdate()) - now, 0.0, 1.0));
     }
-    bell.wait(std::clamp(std::min(viewer.nextFrame(now), viewer.nextUpdate()) - now, 0.0, 1.0));
+  } catch (const Error& error) {
+    throw viewer.rescue(error);
   }
   viewer.finish();
   return viewer.exitCode();

@@ -12,6 +12,7 @@
 #include "solver/modes.h"
 #include "viewer/bounce_panel.h"
 #include "viewer/error_panel.h"
+#include "viewer/materials_panel.h"
 #include "viewer/notes_panel.h"
 #include "viewer/plan_panel.h"
 #include "viewer/race_panel.h"
@@ -356,6 +357,7 @@ void buildSidePanel(Viewer& viewer, int left) {
   errorsSection(viewer);
   convergenceSection(viewer);
   displaySection(viewer);
+  materialsSection(viewer);
   bouncesSection(viewer);
   figuresSection(viewer);
   planSection(viewer);

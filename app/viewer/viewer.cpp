@@ -9,6 +9,7 @@
 #include "base/atomic_file.h"
 #include "base/clock.h"
 #include "exit_codes.h"
+#include "export/materials.h"
 #include "viewer/actions.h"
 #include "viewer/comparison.h"
 #include "viewer/panels.h"
@@ -85,6 +86,7 @@ void Viewer::takeState(double now) {
     forgetOldLight();
     frame_wanted_ = frame_wanted_ || state_->facts->scene_path != framed_scene_;
   }
+  takeMaterials(another);
   noteRates(now);
   noteSaved(*before);
   if (state_->problems > problems_seen_ && state_->problem) {
@@ -95,6 +97,15 @@ void Viewer::takeState(double now) {
     fail(*state_->problem);
   }
   gui_frames_ = std::max(gui_frames_, news || another ? kFramesAfterInput : 0);
+}
+
+void Viewer::takeMaterials(bool another) {
+  if (!state_->snapshot || session_.sent() != state_->commands) return;
+  const std::vector<Material>& materials = state_->snapshot->mesh->materials;
+  if (another && std::exchange(opening_, false))
+    edits_.begin(materials);
+  else if (edits_.materials() != materials)
+    edits_.adopt(materials);
 }
 
 void Viewer::noteRates(double now) {
@@ -153,7 +164,10 @@ void Viewer::notice(std::string text) {
   input();
 }
 
-void Viewer::open(const std::filesystem::path& scene) { session_.open(scene, ui_.options); }
+void Viewer::open(const std::filesystem::path& scene) {
+  session_.open(scene, ui_.options);
+  opening_ = true;
+}
 
 void Viewer::restart() {
   if (state_->epoch == 0) {
@@ -161,6 +175,25 @@ void Viewer::restart() {
   } else {
     session_.restart(ui_.options);
   }
+}
+
+void Viewer::edit(const std::function<void(MaterialEdits&)>& change) {
+  const std::vector<Material> before = edits_.materials();
+  change(edits_);
+  if (edits_.materials() != before) session_.edit(edits_.materials());
+}
+
+std::optional<double> Viewer::gesture() const {
+  const ImGuiIO& io = ImGui::GetIO();
+  return io.MouseDown[0] ? std::optional(io.MouseClickedTime[0]) : std::nullopt;
+}
+
+void Viewer::saveMaterials(std::filesystem::path path) {
+  if (path.empty()) path = newFileName(".mtl");
+  if (edits_.materials().empty())
+    throw Error(ErrorKind::kUsage, "there are no materials to save yet", {}, "open a scene");
+  writeMaterials(path, edits_.materials());
+  notice("written: " + path.string());
 }
 
 void Viewer::setMode(const std::string& key) {
@@ -209,7 +242,7 @@ void Viewer::forget() { ui_.settings.view.reference.reset(); }
 // Light of another mesh is no reference; bounces that were chosen are wanted of the new solve too.
 void Viewer::forgetOldLight() {
   ViewOptions& view = ui_.settings.view;
-  if (view.reference && view.reference->mesh != state_->snapshot->mesh) view.reference.reset();
+  if (view.reference && view.reference->mesh->cut != state_->snapshot->mesh->cut) view.reference.reset();
   if (view.light.bounces) session_.completeBounces();
 }
 
@@ -231,6 +264,18 @@ void Viewer::finish() {
   closing_ = true;
   session_.close();
   takeState(wallSeconds());
+}
+
+Error Viewer::rescue(const Error& error) {
+  const bool lost = setup_.session.kept.path.empty() && state_->facts && state_->measures.shots > 0;
+  const std::filesystem::path path = lost ? newFileName(".unshot") : std::filesystem::path();
+  const std::uint64_t saves = state_->saves;
+  if (lost) session_.save(path);
+  finish();
+  if (state_->saves == saves) return error;
+  return Error(error.kind(), error.what(), error.where(),
+               "unshot view " + state_->facts->scene_path.string() + " --resume " + path.string() +
+                   ", which goes on from what was shot");
 }
 
 void Viewer::frameScene() { frame_wanted_ = true; }

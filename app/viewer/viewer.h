@@ -20,6 +20,7 @@
 
 #include "session/session.h"
 #include "viewer/gui_renderer.h"
+#include "viewer/material_edits.h"
 #include "viewer/navigator.h"
 #include "viewer/scene_area.h"
 #include "viewer/script.h"
@@ -55,8 +56,10 @@ struct ViewerState {
   DisplaySettings settings;
   bool panel = true;
   bool help = false;
-  bool notes = false;     ///< those on the scene, in full
-  bool left_out = false;  ///< what the solve leaves out, in full
+  bool notes = false;        ///< those on the scene, in full
+  bool left_out = false;     ///< what the solve leaves out, in full
+  bool materials = false;    ///< to be changed
+  std::size_t material = 0;  ///< the one chosen
   PlotAxis plot_axis = PlotAxis::kSeconds;
 };
 
@@ -101,6 +104,9 @@ class Viewer {
   /// Ends the session, once nothing more is to be shown: waits for one step at most, and for what is still to
   /// be saved. Only exitCode() may be called afterwards.
   void finish();
+  /// finish() where the window cannot go on, such as after a reset of the driver: saves a solve that is not
+  /// kept anyway. Returns the error with the way on.
+  Error rescue(const Error& error);
   bool scriptDone() const { return script_at_ >= script_.size() && captures_.empty(); }
   /// 0, or the exit code of the first thing that failed in the script, or of why there is no scene.
   int exitCode() const { return exit_code_; }
@@ -130,6 +136,13 @@ class Viewer {
   void shootAgain() { session_.shootAgain(); }
   void setMode(const std::string& key);
   void setError(double error);
+  /// Changes materials; the solve goes on with them.
+  void edit(const std::function<void(MaterialEdits&)>& change);
+  const MaterialEdits& edits() const { return edits_; }
+  /// When the mouse button that is held went down; none where none is.
+  std::optional<double> gesture() const;
+  /// Writes them as MTL. An empty path: a new name in the working folder.
+  void saveMaterials(std::filesystem::path path);
   void pauseOrResume();
   void pause() { session_.pause(); }
   void resume() { session_.resume(); }
@@ -185,6 +198,7 @@ class Viewer {
 
   void takeState(double now);
   void noteRates(double now);
+  void takeMaterials(bool another);
   void runScript(double now);
   void runScriptLines(double now);
   bool waitIsOver(const ScriptLine& line, double now);
@@ -218,6 +232,8 @@ class Viewer {
   Session session_;
   std::shared_ptr<const SessionState> state_;
   ViewerState ui_;
+  MaterialEdits edits_;
+  bool opening_ = true;  // another scene than the one that edits_ are of
   double scale_ = 0;
 
   // Frames.

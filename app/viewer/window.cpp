@@ -117,7 +117,12 @@ int runWindow(ViewerSetup setup, const WindowOptions& wanted) {
       float scale = 1;
       glfwGetWindowContentScale(window, &scale, nullptr);
       viewer.setScale(std::clamp(static_cast<double>(scale), 0.5, 4.0));
-      runLoop(viewer, window);
+      try {
+        runLoop(viewer, window);
+      } catch (const Error& error) {
+        glfwHideWindow(window);
+        throw viewer.rescue(error);
+      }
       // The window goes at once; the solver may need a moment to end its step and to save.
       glfwHideWindow(window);
       viewer.finish();

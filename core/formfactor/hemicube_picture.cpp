@@ -161,6 +161,7 @@ HemicubeView::Result HemicubePicture::look(const HemicubeFrame& frame, HemicubeL
                 GL_RG_INTEGER, GL_UNSIGNED_INT, items_.data());
   fn.ReadPixels(0, 0, static_cast<GLsizei>(layout.width()), static_cast<GLsizei>(layout.height()),
                 GL_DEPTH_COMPONENT, GL_FLOAT, distance_.data());
+  gl::checkErrors(fn, "drawing a hemicube");  // a driver that was reset draws nothing, and would be believed
   return {items_, distance_, far_};
 }
 

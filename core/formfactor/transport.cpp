@@ -1,6 +1,7 @@
 #include "formfactor/transport.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace unshot {
 
@@ -88,16 +89,31 @@ std::pair<Column, const Column&> Transport::refine(std::uint32_t q) {
 }
 
 // What a column brings is no longer what it was: the difference is a defect.
-void Transport::close(std::uint32_t q, Column& column) const {
+template <class Factor>
+void Transport::scale(std::uint32_t q, Column& column, Factor&& factor) const {
   if (closure_.exact[q]) return;
   double arrives = 0;
   for (std::size_t i = 0; i < column.k.size(); ++i) {
     const std::uint32_t v =
         column.receiver.empty() ? column.first + static_cast<std::uint32_t>(i) : column.receiver[i];
-    column.k[i] *= closure_.scale[v];
+    column.k[i] *= factor(v);
     arrives += receivers_.area[v] * static_cast<double>(column.k[i]);
   }
   column.defect = 1 - column.escape - arrives / patch_area_[q];
+}
+
+void Transport::close(std::uint32_t q, Column& column) const {
+  scale(q, column, [this](std::uint32_t v) { return closure_.scale[v]; });
+}
+
+std::optional<Column> Transport::take(std::uint32_t q, bool opened) {
+  if (!kept_[q]) return std::nullopt;
+  kept_bytes_ -= kept_[q]->bytes();
+  --kept_count_;
+  Column column = std::move(*std::exchange(kept_[q], nullptr));
+  if (opened && !closure_.scale.empty())
+    scale(q, column, [&](std::uint32_t v) { return closure_.scale[v] > 0 ? 1 / closure_.scale[v] : 1; });
+  return column;
 }
 
 void Transport::setClosure(RowClosure closure) {

@@ -35,6 +35,9 @@ class Transport {
   /// Takes column q as it was computed before, in the place of computing it, and tells the watcher of it;
   /// false where there is no room. For columns that were not asked for yet.
   bool restore(std::uint32_t q, Column column);
+  /// Gives column q away, for restore() of another transport, where `opened` as it was before closure(); none
+  /// where it is not kept.
+  std::optional<Column> take(std::uint32_t q, bool opened);
   /// Gives the memory of all kept columns back; they are computed again as they are asked for.
   void release();
   /// Column q, not asked for yet, is to be of this quality, drafts allowed or not.
@@ -81,6 +84,8 @@ class Transport {
   Column compute(std::uint32_t q, ColumnQuality wanted);
   const Column& keep(std::uint32_t q, Column column);
   void setQuality(std::uint32_t q, const Column& column);
+  template <class Factor>
+  void scale(std::uint32_t q, Column& column, Factor&& factor) const;
   void close(std::uint32_t q, Column& column) const;
 
   std::unique_ptr<FormFactorMethod> method_;

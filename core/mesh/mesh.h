@@ -10,6 +10,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -140,7 +141,16 @@ struct SmoothPair {
   bool flipped = false;
 };
 
+/// Another number at each call; any thread.
+inline std::uint64_t nextCut() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
+
 struct Mesh {
+  /// The same for copies: meshes that may differ in materials, and in nothing else.
+  std::uint64_t cut = nextCut();
+
   // The scene it belongs to, as far as drawing and transport need it.
   glm::dvec3 frame_origin{0.0};
   glm::dvec3 bounds_min{0.0}, bounds_max{0.0};

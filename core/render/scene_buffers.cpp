@@ -112,7 +112,9 @@ void SceneBuffers::begin(const std::shared_ptr<const Snapshot>& snapshot) {
   // Where fields were given up half way, it is not known what is there.
   bool all = !field_uploads_.done();
   field_uploads_.clear();
-  if (snapshot->mesh != mesh_) {
+  if (mesh_ && snapshot->mesh->cut == mesh_->cut) {
+    if (snapshot->mesh != mesh_) beginSides(snapshot->mesh, unlitSurfaces(*snapshot->mesh));
+  } else {
     beginMesh(snapshot->mesh);
     bounce_field_.reset();
     reference_light_.reset();
@@ -162,7 +164,7 @@ SceneBuffers::LightBuffers SceneBuffers::lightOf(const LightChoice& choice) {
 }
 
 void SceneBuffers::useReference(const std::shared_ptr<const ReferenceLight>& reference) {
-  const bool fits = reference && reference->mesh == mesh_;
+  const bool fits = reference && reference->mesh->cut == mesh_->cut;
   if (!fits && !direct_reference_) {
     Snapshot direct;
     direct.mesh = mesh_;
@@ -203,7 +205,6 @@ void SceneBuffers::beginMesh(const std::shared_ptr<const Mesh>& shared_mesh) {
   const std::size_t sides_shown = mesh.sides.size() + unlit.surfaces.size();
   checkTexels(fn, std::max({mesh.triangle_element.size(), std::size_t{mesh.element_count}, 2 * sides_shown}));
   mesh_uploads_.clear();
-  mesh_ = shared_mesh;
   bounds_ = {mesh.bounds_min, mesh.bounds_max};
   const auto own = [&]<class T>(const std::vector<T>& values) {
     return std::shared_ptr<const std::vector<T>>(shared_mesh, &values);
@@ -215,8 +216,23 @@ void SceneBuffers::beginMesh(const std::shared_ptr<const Mesh>& shared_mesh) {
   triangle_index_count_ = static_cast<GLsizei>(mesh.triangle_vertices.size());
   edges_uploaded_ = false;
 
-  auto sides =
-      std::make_shared<std::vector<glm::vec4>>(std::max<std::size_t>(2 * sides_shown, 1), glm::vec4(0.0f));
+  beginSides(shared_mesh, unlit);
+  sendAll(mesh_uploads_, triangle_elements_, own(mesh.triangle_element));
+  for (const gl::Buffer* field : {&element_irradiance_, &element_direct_}) {
+    allocate(fn, *field, std::max<std::size_t>(mesh.element_count, 1) * sizeof(glm::vec4), GL_DYNAMIC_DRAW);
+  }
+  attachTexels(fn, sides_texture_, GL_RGBA32F, sides_);
+  attachTexels(fn, triangle_elements_texture_, GL_R32UI, triangle_elements_);
+  attachTexels(fn, element_irradiance_texture_, GL_RGBA32F, element_irradiance_);
+  attachTexels(fn, element_direct_texture_, GL_RGBA32F, element_direct_);
+}
+
+// All that materials are to the picture.
+void SceneBuffers::beginSides(const std::shared_ptr<const Mesh>& shared_mesh, const UnlitSurfaces& unlit) {
+  mesh_ = shared_mesh;
+  const Mesh& mesh = *mesh_;
+  const std::size_t shown = mesh.sides.size() + unlit.surfaces.size();
+  auto sides = std::make_shared<std::vector<glm::vec4>>(std::max<std::size_t>(2 * shown, 1), glm::vec4(0.0f));
   for (std::size_t i = 0; i < mesh.sides.size(); ++i) {
     (*sides)[2 * i] = finiteTexel(mesh.sides[i].reflectance);
     (*sides)[2 * i + 1] = finiteTexel(mesh.sides[i].emission);
@@ -226,14 +242,6 @@ void SceneBuffers::beginMesh(const std::shared_ptr<const Mesh>& shared_mesh) {
     (*sides)[2 * (mesh.sides.size() + i)] = finiteTexel(material.reflectance);
   }
   sendAll<glm::vec4>(mesh_uploads_, sides_, std::move(sides));
-  sendAll(mesh_uploads_, triangle_elements_, own(mesh.triangle_element));
-  for (const gl::Buffer* field : {&element_irradiance_, &element_direct_}) {
-    allocate(fn, *field, std::max<std::size_t>(mesh.element_count, 1) * sizeof(glm::vec4), GL_DYNAMIC_DRAW);
-  }
-  attachTexels(fn, sides_texture_, GL_RGBA32F, sides_);
-  attachTexels(fn, triangle_elements_texture_, GL_R32UI, triangle_elements_);
-  attachTexels(fn, element_irradiance_texture_, GL_RGBA32F, element_irradiance_);
-  attachTexels(fn, element_direct_texture_, GL_RGBA32F, element_direct_);
 }
 
 void SceneBuffers::beginVertices(const std::shared_ptr<const Mesh>& shared_mesh) {

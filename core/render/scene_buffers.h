@@ -20,8 +20,8 @@ class SceneBuffers {
   explicit SceneBuffers(gl::Context& context);
 
   /// Begins an upload, giving up what is not yet done of the one before: geometry only when the mesh is
-  /// another than before, shared fields only when they are other objects. Values that are not finite become
-  /// 0. Throws Error kEnvironment where the mesh is too large for the driver.
+  /// another cut than before (Mesh::cut), shared fields only when they are other objects. Values that are not
+  /// finite become 0. Throws Error kEnvironment where the mesh is too large for the driver.
   void begin(const std::shared_ptr<const Snapshot>& snapshot);
   /// About so many more bytes. Nothing may be drawn before all uploadBytes() are sent.
   void upload(std::size_t bytes);
@@ -57,6 +57,7 @@ class SceneBuffers {
   using SharedField = std::shared_ptr<const std::vector<glm::vec3>>;
 
   void beginMesh(const std::shared_ptr<const Mesh>& mesh);
+  void beginSides(const std::shared_ptr<const Mesh>& mesh, const UnlitSurfaces& unlit);
   void beginVertices(const std::shared_ptr<const Mesh>& mesh);
   void beginUnlit(const UnlitSurfaces& unlit);
   /// Where the light that is meant is, brought up to date.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct Material {
   glm::dvec3 emission{0.0};
 
   bool emits() const { return emission.x > 0 || emission.y > 0 || emission.z > 0; }
+  bool operator==(const Material&) const = default;
 };
 
 /// One corner of a polygon: a position and, where the file gives one, a shading normal (else kNone).
@@ -55,6 +57,8 @@ struct Scene {
   std::size_t face_count = 0;      ///< faces in the file
   std::size_t triangle_count = 0;  ///< triangles that the polygons make
   bool smoothing_given = false;    ///< the file speaks of smoothing groups (`s`)
+  /// sceneHash() of the scene as it was read, where its materials have been edited since.
+  std::optional<std::uint64_t> hash_as_read;
   Diagnostics diagnostics;
 
   glm::dvec3 bounds_min{0.0};  ///< over corners in use, in the scene's frame

@@ -96,6 +96,14 @@ void Lane::again() {
   pace_ = {};
 }
 
+void Lane::edit(const std::vector<Material>& materials, const std::function<gl::Context&()>& gl,
+                const CancelToken& cancel) {
+  solve_ = std::make_unique<Solve>(usable(), materials, gl, cancel);
+  failure_noted_ = no_more_places_ = no_more_bounces_ = false;
+  stale_ = estimates_stale_ = true;
+  learnFacts(facts_->options, facts_->load_seconds);
+}
+
 void Lane::completeBounces() {
   usable();
   complete_bounces_ = true;

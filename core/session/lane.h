@@ -35,6 +35,8 @@ class Lane {
   void setMode(const std::string& key);
   void setError(double error);
   void again();
+  void edit(const std::vector<Material>& materials, const std::function<gl::Context&()>& gl,
+            const CancelToken& cancel);
   void completeBounces();
 
   /// One step (Solve::step), after which estimates may be made too.

@@ -13,7 +13,8 @@ namespace unshot {
 
 bool isSuperseded(const Command& command, const Command& later) {
   const bool opens = std::holds_alternative<command::Open>(later);
-  if (std::holds_alternative<command::Open>(command) || std::holds_alternative<command::Race>(command) ||
+  if (std::holds_alternative<command::Open>(command) || std::holds_alternative<command::Edit>(command) ||
+      std::holds_alternative<command::Race>(command) ||
       std::holds_alternative<command::SetMode>(command))  // in a race it begins anew
     return opens;
   return std::holds_alternative<command::Restart>(command) &&
@@ -39,7 +40,8 @@ void LiveSolve::carryOut(const Command& command) {
     note(presentError());
   }
   task_.clear();
-  ++commands_;
+  const auto* const edit = std::get_if<command::Edit>(&command);
+  commands_ += edit ? 1 + edit->instead_of : 1;
   if (ran && !running()) offerToSaver();
   settle();
   publish();
@@ -98,6 +100,23 @@ void LiveSolve::perform(const command::Restart& c) {
          .options = c.options,
          .load_seconds = lane.facts().load_seconds,
          .rival_mode = rivalMode()});
+}
+
+void LiveSolve::perform(const command::Edit& c) {
+  Lane& lane = present();
+  Scene edited = editedScene(lane.solve().scene(), c.materials);
+  // A race that is fair begins with nothing shot.
+  if (!rival_ && !lane.broken() && lane.solve().canEdit(edited.materials)) {
+    lane.rest();
+    return lane.edit(
+        edited.materials, [this]() -> gl::Context& { return context(); }, setup_.given_up);
+  }
+  const bool paused = paused_;
+  begin({.scene = std::move(edited),
+         .options = lane.facts().options,
+         .load_seconds = lane.facts().load_seconds,
+         .rival_mode = rivalMode()});
+  paused_ = paused;
 }
 
 void LiveSolve::perform(const command::Pause&) {

@@ -27,6 +27,10 @@ struct Open {
 struct Restart {
   SolveOptions options;
 };
+struct Edit {
+  std::vector<Material> materials;
+  std::uint64_t instead_of = 0;  ///< edits sent before that this one stands for too
+};
 struct Pause {};
 struct Resume {};
 struct Step {
@@ -49,8 +53,8 @@ struct Save {
 };
 }  // namespace command
 
-using Command = std::variant<command::Open, command::Restart, command::Pause, command::Resume, command::Step,
-                             command::SetMode, command::SetError, command::CompleteBounces,
+using Command = std::variant<command::Open, command::Restart, command::Edit, command::Pause, command::Resume,
+                             command::Step, command::SetMode, command::SetError, command::CompleteBounces,
                              command::ShootAgain, command::Race, command::EndRace, command::Save>;
 
 /// Whether loading for `command` is in vain, since `later` loads another scene or the same one again.
@@ -90,6 +94,7 @@ class LiveSolve {
  private:
   void perform(const command::Open& c);
   void perform(const command::Restart& c);
+  void perform(const command::Edit& c);
   void perform(const command::Pause&);
   void perform(const command::Resume&);
   void perform(const command::Step& c);

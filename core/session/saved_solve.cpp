@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kKind = "unshot solve";
 // To be raised when the file changes, or what form-factor methods and mesh mean by the same options.
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 // What the file holds, for writing (constant values) and for reading.
 
@@ -66,41 +66,47 @@ std::shared_ptr<SavedSolve> readSavedSolve(const std::filesystem::path& path) {
   return saved;
 }
 
+SavedSolve Solve::Impl::head() const {
+  SavedSolve head;
+  head.scene_hash = sceneHash(scene);
+  head.form_factors = form_factors_key;
+  head.emit_front_only = options.emit_front_only;
+  head.sky = sky;
+  head.seed = options.seed;
+  head.hemicube_resolution = options.hemicube_resolution;
+  head.hemicube_drawing = options.hemicube_drawing;
+  head.mode = options.mode;
+  head.error = options.error;
+  head.mesh = mesh;
+  head.plan = plan;
+  for (std::uint32_t q = 0; q < transport->patchCount(); ++q) {
+    const auto quality = transport->quality(q);
+    head.quality.push_back(quality ? static_cast<std::uint8_t>(*quality) : SavedSolve::kUnused);
+  }
+  head.drafts_allowed = transport->draftsAllowed();
+  head.closure = transport->closure();
+  head.closure_pending = closure_pending;
+  head.seconds = measures.seconds;
+  head.cpu_seconds = measures.cpu_seconds;
+  head.mesh_seconds = seconds.mesh;
+  head.plan_seconds = seconds.plan;
+  head.shots = measures.shots;
+  head.rows = measures.rows;
+  head.drawn = drawn_before + transport->drawn();
+  head.history = history;
+  head.state = progress_state;
+  head.stopped_by = stopped_by;
+  return head;
+}
+
 void Solve::save(const std::filesystem::path& path) const {
   const Impl& s = *impl_;
   const Transport& transport = *s.transport;
-  SavedSolve head;
-  head.scene_hash = sceneHash(s.scene);
-  head.form_factors = s.form_factors_key;
-  head.emit_front_only = s.options.emit_front_only;
-  head.sky = s.sky;
-  head.seed = s.options.seed;
-  head.hemicube_resolution = s.options.hemicube_resolution;
-  head.hemicube_drawing = s.options.hemicube_drawing;
-  head.mode = s.options.mode;
-  head.error = s.options.error;
-  head.plan = s.plan;
-  for (std::uint32_t q = 0; q < transport.patchCount(); ++q) {
-    const auto quality = transport.quality(q);
-    head.quality.push_back(quality ? static_cast<std::uint8_t>(*quality) : SavedSolve::kUnused);
-  }
-  head.drafts_allowed = transport.draftsAllowed();
-  head.closure = transport.closure();
-  head.closure_pending = s.closure_pending;
-  head.seconds = s.measures.seconds;
-  head.cpu_seconds = s.measures.cpu_seconds;
-  head.mesh_seconds = s.seconds.mesh;
-  head.plan_seconds = s.seconds.plan;
-  head.shots = s.measures.shots;
-  head.rows = s.measures.rows;
-  head.drawn = drawn();
-  head.history = s.history;
-  head.state = s.progress_state;
-  head.stopped_by = s.stopped_by;
+  const SavedSolve head = s.head();
   writeWholeFile(path, [&](const std::function<void(std::string_view)>& sink) {
     ArchiveWriter archive(sink);
     archive.head(kKind, kVersion);
-    transferHead(archive, std::as_const(head));
+    transferHead(archive, head);
     writeMesh(archive, *s.mesh);
     transferValues(archive, s.state->values());
     archive.fields(s.local_pass ? s.local_pass->irradiance() : std::vector<glm::dvec3>());

@@ -45,6 +45,12 @@ struct Session::Impl {
     {
       const std::lock_guard lock(mutex);
       if (current && isSuperseded(*current, command)) given_up = true;
+      auto* const edit = std::get_if<command::Edit>(&command);
+      const auto* const former = queue.empty() ? nullptr : std::get_if<command::Edit>(&queue.back());
+      if (edit && former) {
+        edit->instead_of = former->instead_of + 1;
+        queue.pop_back();
+      }
       queue.push_back(std::move(command));
       ++sent;
     }
@@ -140,6 +146,8 @@ void Session::open(std::filesystem::path scene, SolveOptions options, std::share
 void Session::restart(SolveOptions options) { impl_->send(command::Restart{std::move(options)}); }
 
 void Session::shootAgain() { impl_->send(command::ShootAgain{}); }
+
+void Session::edit(std::vector<Material> materials) { impl_->send(command::Edit{std::move(materials)}); }
 
 void Session::pause() { impl_->send(command::Pause{}); }
 

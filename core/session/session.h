@@ -135,6 +135,10 @@ class Session {
   void restart(SolveOptions options);
   /// The present solve from nothing shot, on the same mesh and with the form factors at hand.
   void shootAgain();
+  /// The present solve goes on with the reflectance and emission of these materials (Solve's constructor of
+  /// edits): what was shot and received stays, but begins anew in a race, after a step that threw, or where
+  /// they emit in places that were dark. Of edits sent before one is carried out the last counts.
+  void edit(std::vector<Material> materials);
   void pause();
   void resume();
   /// `shots` more steps (in a race: of each solve), added to those still due, then a pause; 0 where none are

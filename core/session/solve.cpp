@@ -47,8 +47,22 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl, const CancelT
     if (saved->scene_hash != sceneHash(scene))
       throw Error(ErrorKind::kInput, "was saved from another scene than " + scene.path.string(),
                   saved->path.string(), "the scene as it was then, or a new start");
+    if (scene.materials != saved->mesh->materials) {
+      scene.hash_as_read = saved->scene_hash;
+      scene.materials = saved->mesh->materials;
+    }
     options = saved->options(std::move(options));
   }
+  setUp(gl, cancel);
+  if (saved) restore(*saved);
+  begin();
+  if (saved) takeUp(*saved);
+  measure();
+  if (!saved) history.push_back({measures});
+}
+
+// All that stands before the first shot.
+void Solve::Impl::setUp(const std::function<gl::Context&()>& gl, const CancelToken& cancel) {
   cpu_start = cpuSeconds();
   Preparation prepared = unshot::prepare(scene, options, cancel);
   mesh = std::move(prepared.mesh);
@@ -84,16 +98,17 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl, const CancelT
     local_pass =
         std::make_unique<LocalPass>(*mesh, transport->receivers(), form_factors_key != "closed-form");
   bounces_of_light = std::make_unique<Bounces>(mesh, *transport, *state);
-  if (saved) restore(*saved);
+}
+
+void Solve::Impl::begin() {
   chooseMode(options.mode);
   solve_start = wallSeconds();
-  if (state->emittedPower() <= 0) {
-    measures.unshot_fraction = 0;
-    stop(SolveState::kConverged, "no light");
-  }
-  if (saved) takeUp(*saved);
-  measure();
-  if (!saved) history.push_back({measures});
+  if (state->emittedPower() <= 0) endWithoutLight();
+}
+
+void Solve::Impl::endWithoutLight() {
+  measures.unshot_fraction = 0;
+  stop(SolveState::kConverged, "no light");
 }
 
 void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl, const CancelToken& cancel) {
@@ -309,7 +324,7 @@ void Solve::again() {
   s.solve_start = wallSeconds();
   s.cpu_start = cpuSeconds() - s.cpu_setup;
   s.stop(SolveState::kRunning, {});
-  if (s.state->emittedPower() <= 0) s.stop(SolveState::kConverged, "no light");
+  if (s.state->emittedPower() <= 0) s.endWithoutLight();
   s.measure();
   s.history.assign(1, {s.measures});
   s.stagnation.restart(s.measures);

@@ -74,6 +74,10 @@ struct PhaseSeconds {
 
 enum class SolveState { kRunning, kConverged, kLimit, kInterrupted, kFailed };
 
+/// The scene with the reflectance and emission of these, as many as it has; their names count for nothing.
+/// Throws a usage Error for a reflectance outside 0 to 1, an emission that is below 0 or not finite.
+Scene editedScene(Scene scene, const std::vector<Material>& materials);
+
 /// The solve. All calls come from one thread, on which the GL context (if any) is current.
 class Solve {
  public:
@@ -85,6 +89,12 @@ class Solve {
   /// scene.
   Solve(Scene scene, SolveOptions options, std::function<gl::Context&()> gl, const CancelToken& cancel = {},
         std::shared_ptr<SavedSolve> saved = nullptr);
+  /// Goes on from `before` with other materials (editedScene): what was shot and received stays, and so do
+  /// the mesh and the form factors at hand; what the edit changes is unshot, of either sign. `before` gives
+  /// its form factors away, and is to be destroyed; where this throws it is as it was (kUsage where canEdit()
+  /// says no; kEnvironment: a mode that is not for these materials).
+  Solve(Solve& before, const std::vector<Material>& materials, const std::function<gl::Context&()>& gl,
+        const CancelToken& cancel = {});
   ~Solve();
   Solve(const Solve&) = delete;
   Solve& operator=(const Solve&) = delete;
@@ -104,6 +114,9 @@ class Solve {
   /// Another SolveOptions::error: a running solve (or one at a limit) that has reached it converges at once,
   /// a converged one that has not runs again. Throws a usage Error unless 0 < error < 1.
   void setError(double error);
+  /// Whether the mesh has elements where these materials emit; where it has none, as they lie in the dark
+  /// now, the scene is to be meshed again.
+  bool canEdit(const std::vector<Material>& materials) const;
   /// Shoots again from nothing in the present mode, with the form factors at hand: clocks, counts and history
   /// begin anew.
   void again();

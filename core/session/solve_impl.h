@@ -3,7 +3,8 @@
 // - solve_queries.cpp answers what can be asked of it;
 // - solve_end.cpp says when and why it ends;
 // - row_closing.cpp closes its rows;
-// - saved_solve.cpp writes it into a file and takes it up again.
+// - saved_solve.cpp writes it into a file and takes it up again;
+// - edited_solve.cpp goes on with other materials.
 #pragma once
 
 #include <memory>
@@ -40,6 +41,7 @@ struct Solve::Impl {
   std::unique_ptr<RadiosityState> state;
   const IterationModeRow* mode_row = nullptr;
   std::unique_ptr<IterationMode> mode;  // made anew where columns have changed: it may hold products of them
+  glm::dvec3 most_emitted{0.0};         // per channel, by materials since nothing was shot [W]
   std::unique_ptr<AmbientTerm> ambient;
   std::unique_ptr<ErrorBudget> budget;
   std::unique_ptr<Bounces> bounces_of_light;
@@ -73,6 +75,11 @@ struct Solve::Impl {
 
   void prepare(const std::function<gl::Context&()>& gl, const CancelToken& cancel,
                std::shared_ptr<SavedSolve> saved);
+  void setUp(const std::function<gl::Context&()>& gl, const CancelToken& cancel);
+  void begin();
+  void endWithoutLight();
+  void takeOver(Impl& before);
+  SavedSolve head() const;
   void restore(SavedSolve& saved);
   void takeUp(const SavedSolve& saved);
   void makeTransport(const std::function<gl::Context&()>& gl, const CancelToken& cancel);

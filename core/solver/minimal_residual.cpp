@@ -11,19 +11,20 @@ namespace {
 
 constexpr std::size_t kDirectionBytes = std::size_t{256} << 20;
 constexpr std::size_t kLeastDirections = 4;
-// A correction by more than this many times the emitted power leads to no solution but to what rounding makes
-// of a system that has none.
+// A correction by more than this many times the emitted power, or what is unshot, leads to no solution but to
+// what rounding makes of a system that has none.
 constexpr double kMostBounces = 1e6;
 
 bool isBeyondLight(const RadiosityState& state, const std::vector<glm::dvec3>& shot,
                    const glm::dvec3& factor) {
   for (int c = 0; c < 3; ++c) {
-    double power = 0, emitted = 0;
+    double power = 0, emitted = 0, unshot = 0;
     for (std::size_t q = 0; q < shot.size(); ++q) {
       power += state.area()[q] * std::abs(factor[c] * shot[q][c]);
       emitted += state.area()[q] * state.emission()[q][c];
+      unshot += state.area()[q] * std::abs(state.unshot()[q][c]);
     }
-    if (power > kMostBounces * emitted) return true;
+    if (power > kMostBounces * std::max(emitted, unshot)) return true;
   }
   return false;
 }

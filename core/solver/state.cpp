@@ -41,6 +41,48 @@ bool RadiosityState::setValues(Values values) {
   return true;
 }
 
+void RadiosityState::setFormerEmission(const std::vector<glm::dvec3>& emission) {
+  for (std::size_t q = 0; q < emission_.size(); ++q) values_.emission_left[q] += emission_[q] - emission[q];
+}
+
+glm::dvec3 RadiosityState::emissionInShot(std::uint32_t q) const {
+  return glm::clamp(values_.shot[q], glm::dvec3(0.0), emission_[q]);
+}
+
+bool RadiosityState::isMislabelled(std::uint32_t q) const {
+  return values_.emission_left[q] != emission_[q] - emissionInShot(q);
+}
+
+void RadiosityState::relabelEmission(std::uint32_t q, const Column& before, const Column& after) {
+  const glm::dvec3 was = emission_[q] - values_.emission_left[q], is = emissionInShot(q);
+  before.forEach([&](std::uint32_t v, double k) { values_.direct[v] -= k * was; });
+  after.forEach([&](std::uint32_t v, double k) { values_.direct[v] += k * is; });
+  values_.emission_left[q] = emission_[q] - is;
+  ++values_.emission_shots;
+}
+
+void RadiosityState::relabelEmission() {
+  for (std::uint32_t q = 0; q < patchCount(); ++q)
+    values_.emission_left[q] = emission_[q] - emissionInShot(q);
+  ++values_.emission_shots;
+}
+
+void RadiosityState::resetChannel(int channel) {
+  for (std::size_t q = 0; q < values_.shot.size(); ++q) {
+    values_.shot[q][channel] = 0;
+    values_.unshot[q][channel] = values_.emission_left[q][channel] = emission_[q][channel];
+  }
+  for (auto* field : {&values_.irradiance, &values_.direct}) {
+    for (glm::dvec3& h : *field) h[channel] = 0;
+  }
+  values_.escaped_power[channel] = values_.defect_power[channel] = 0;
+}
+
+void RadiosityState::balance() {
+  values_.unshot = reflectedMeans(transport_, reflectance_, values_.irradiance);
+  for (std::size_t q = 0; q < emission_.size(); ++q) values_.unshot[q] += emission_[q] - values_.shot[q];
+}
+
 glm::dvec3 RadiosityState::takeEmission(std::uint32_t q, const glm::dvec3& d) {
   const glm::dvec3 taken = glm::clamp(d, glm::dvec3(0.0), values_.emission_left[q]);
   values_.emission_left[q] -= taken;
@@ -57,8 +99,8 @@ void RadiosityState::receive(std::uint32_t q, const glm::dvec3& d, const Column&
       values_.unshot[share.patch] += share.area / area_[share.patch] * reflectance_[share.patch] * received;
     }
   });
-  values_.escaped_power += column.escape * area_[q] * sumOfChannels(d);
-  values_.defect_power += column.defect * area_[q] * sumOfChannels(d);
+  values_.escaped_power += column.escape * area_[q] * d;
+  values_.defect_power += column.defect * area_[q] * d;
 }
 
 void RadiosityState::shoot(std::uint32_t q, const glm::dvec3& d, const Column& column) {
@@ -79,8 +121,8 @@ void RadiosityState::add(const glm::dvec3& factor, const LightFlow& flow) {
     values_.shot[q] += factor * flow.shot[q];
     values_.unshot[q] += factor * (reflected[q] - flow.shot[q]);
   }
-  values_.escaped_power += sumOfChannels(factor * flow.escaped);
-  values_.defect_power += sumOfChannels(factor * flow.defect);
+  values_.escaped_power += factor * flow.escaped;
+  values_.defect_power += factor * flow.defect;
 }
 
 void RadiosityState::replaceColumn(std::uint32_t q, const Column& before, const Column& after) {
@@ -91,7 +133,7 @@ void RadiosityState::replaceColumn(std::uint32_t q, const Column& before, const 
 void RadiosityState::renew(Transport& transport) {
   std::fill(values_.irradiance.begin(), values_.irradiance.end(), glm::dvec3(0.0));
   std::fill(values_.direct.begin(), values_.direct.end(), glm::dvec3(0.0));
-  values_.escaped_power = values_.defect_power = 0;
+  values_.escaped_power = values_.defect_power = glm::dvec3(0.0);
   values_.unshot = emission_;
   for (std::uint32_t q = 0; q < patchCount(); ++q) {
     const glm::dvec3 d = values_.shot[q], emitted = emission_[q] - values_.emission_left[q];
@@ -103,6 +145,16 @@ void RadiosityState::renew(Transport& transport) {
       column.forEach([&](std::uint32_t v, double k) { values_.direct[v] += k * emitted; });
   }
 }
+
+glm::dvec3 RadiosityState::emittedPowers() const {
+  glm::dvec3 sum(0.0);
+  for (std::size_t q = 0; q < emission_.size(); ++q) sum += area_[q] * emission_[q];
+  return sum;
+}
+
+double RadiosityState::escapedPower() const { return sumOfChannels(values_.escaped_power); }
+
+double RadiosityState::defectPower() const { return sumOfChannels(values_.defect_power); }
 
 double RadiosityState::unshotPower() const {
   double sum = 0;

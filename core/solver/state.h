@@ -30,16 +30,30 @@ class RadiosityState {
 
   /// All that changes while it solves.
   struct Values {
-    std::vector<glm::dvec3> shot, unshot;        ///< S and U, one per patch [W/m^2]
-    std::vector<glm::dvec3> emission_left;       ///< E not yet shot, one per patch [W/m^2]
-    std::vector<glm::dvec3> irradiance, direct;  ///< H and H_d, one per receiver [W/m^2]
-    double escaped_power = 0, defect_power = 0;  ///< [W]
+    std::vector<glm::dvec3> shot, unshot;              ///< S and U, one per patch [W/m^2]
+    std::vector<glm::dvec3> emission_left;             ///< E not yet shot, one per patch [W/m^2]
+    std::vector<glm::dvec3> irradiance, direct;        ///< H and H_d, one per receiver [W/m^2]
+    glm::dvec3 escaped_power{0.0}, defect_power{0.0};  ///< per channel [W]
     std::uint64_t emission_shots = 0;
   };
   const Values& values() const { return values_; }
   /// Goes on from values of a state of the same patches and receivers; false, and nothing done, where they
   /// are of others.
   bool setValues(Values values);
+  /// The values are of a state whose E was this, one per patch. To be called after setValues(), before
+  /// relabelEmission() and balance().
+  void setFormerEmission(const std::vector<glm::dvec3>& emission);
+  /// Whether q has shot more emission than it has, or as reflected light what is emission.
+  bool isMislabelled(std::uint32_t q) const;
+  /// Of what q has shot its emission goes first again, and H_d follows. `before` and `after` are column q as
+  /// it was and as it is.
+  void relabelEmission(std::uint32_t q, const Column& before, const Column& after);
+  /// relabelEmission() for all, but that H_d stays: to be followed by renew().
+  void relabelEmission();
+  /// Nothing shot again in this channel, 0 to 2.
+  void resetChannel(int channel);
+  /// U = R B - S from S and H.
+  void balance();
 
   std::size_t patchCount() const { return values_.shot.size(); }
 
@@ -73,18 +87,16 @@ class RadiosityState {
   const glm::dvec3& emissionLeft(std::uint32_t q) const { return values_.emission_left[q]; }
 
   double emittedPower() const { return emitted_power_; }  ///< sum A E over patches and channels [W]
+  glm::dvec3 emittedPowers() const;                       ///< sum A E over patches, per channel [W]
   double unshotPower() const;                             ///< sum A |U| over patches and channels [W]
   /// Whether U is no more than what rounding leaves of what was emitted.
   bool onlyRoundingUnshot() const { return unshotPower() <= 1e-15 * emitted_power_; }
-  double escapedPower() const {
-    return values_.escaped_power;
-  }  ///< shot into nothing so far, over channels [W]
-  double defectPower() const {
-    return values_.defect_power;
-  }  ///< shot and lost by approximation so far, over channels [W]
+  double escapedPower() const;  ///< shot into nothing so far, over channels [W]
+  double defectPower() const;   ///< shot and lost by approximation so far, over channels [W]
 
  private:
   void receive(std::uint32_t q, const glm::dvec3& d, const Column& column);
+  glm::dvec3 emissionInShot(std::uint32_t q) const;
   glm::dvec3 takeEmission(std::uint32_t q, const glm::dvec3& d);
 
   const Transport& transport_;

@@ -91,6 +91,11 @@ const std::map<std::string_view, std::string>& validArguments() {
       {"screenshot", "with.png"},
       {"screenshot-scene", "without.png"},
       {"save-solve", "with.unshot"},
+      {"reflectance", "floor 0.5,0.25,0"},
+      {"emission", "floor 1,0,0.5"},
+      {"light", "floor off"},
+      {"save-materials", "with.mtl"},
+      {"materials", "on"},
   };
   return arguments;
 }
@@ -193,10 +198,10 @@ TEST_F(EveryAction, PerformsOnALiveViewer) {
   EXPECT_FALSE(live->closing());
   live->perform("quit");
   EXPECT_TRUE(live->closing());
-  EXPECT_EQ(
-      folder_.names(),
-      (std::set<std::string>{"with.png", "without.png", "solution.ply", "unshot-two_patches-001.png",
-                             "unshot-two_patches-002.png", "with.unshot", "unshot-two_patches-001.unshot"}));
+  EXPECT_EQ(folder_.names(), (std::set<std::string>{
+                                 "with.png", "without.png", "solution.ply", "unshot-two_patches-001.png",
+                                 "unshot-two_patches-002.png", "with.unshot", "unshot-two_patches-001.unshot",
+                                 "with.mtl", "unshot-two_patches-001.mtl"}));
 }
 
 TEST_F(EveryAction, WithoutASceneNoneCrashes) {

@@ -52,6 +52,8 @@ class LiveViewer {
   Viewer& operator*() { return *viewer_; }
   Viewer* operator->() { return viewer_.get(); }
   const gl::Functions& fn() const { return display_->functions(); }
+  /// Of the solver's context, for its thread.
+  const gl::Functions& solverFunctions() const { return solver_->functions(); }
   const std::string& title() const { return title_; }
   /// How many frames were drawn that looked otherwise than the one before.
   int painted() const { return painted_; }

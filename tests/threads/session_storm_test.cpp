@@ -16,8 +16,22 @@ using namespace testing_support;
 
 const char* const kScenes[] = {"furnace.obj", "two_patches.obj", "cornell_box.obj", "missing.obj"};
 
+// Of the scene that is there now, or of another: materials are lit, painted, and wrong at times.
+void editSomething(Session& session, Dice& dice) {
+  std::vector<Material> materials;
+  if (const StatePointer state = session.latest(); state->snapshot)
+    materials = state->snapshot->mesh->materials;
+  if (materials.empty() || dice.below(10) == 0) materials.emplace_back();
+  Material& m = materials[dice.below(static_cast<std::uint32_t>(materials.size()))];
+  if (dice.below(2) == 0)
+    m.reflectance = {dice.between(-0.02, 1), dice.between(0, 1), dice.between(0, 1.02)};
+  else
+    m.emission = dice.below(3) == 0 ? glm::dvec3(0.0) : glm::dvec3(dice.between(0, 20));
+  session.edit(std::move(materials));
+}
+
 void sendSomething(Session& session, Dice& dice) {
-  const std::uint32_t kind = dice.below(26);
+  const std::uint32_t kind = dice.below(30);
   if (kind < 2) {
     session.open(asset(kScenes[dice.below(4)]), closedForm(20 + dice.below(60), dice.between(0, 0.1)));
   } else if (kind < 3) {
@@ -41,6 +55,8 @@ void sendSomething(Session& session, Dice& dice) {
     session.race(std::string(iterationModes()[dice.below(2)].info.key));
   } else if (kind < 25) {
     session.endRace();
+  } else if (kind < 29) {
+    editSomething(session, dice);
   } else {
     session.setPublishInterval(dice.between(0, 0.1));
   }

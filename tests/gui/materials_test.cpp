@@ -1,0 +1,171 @@
+// Materials edited in the viewer: by actions, in the panel, back and forth.
+#include <gmock/gmock.h>
+#include <imgui_internal.h>
+
+#include "scene/obj_reader.h"
+#include "support/live_viewer.h"
+#include "support/temp_folder.h"
+#include "viewer/materials_panel.h"
+
+namespace unshot {
+namespace {
+
+using testing::HasSubstr;
+using testing_support::LiveViewer;
+using testing_support::TempFolder;
+
+LiveViewer::Options cornellBox(const std::string& script = {}) {
+  LiveViewer::Options options;
+  options.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
+  options.solve.elements = 200;
+  options.solve.error = 0.01;
+  options.script = script;
+  options.width = 700;
+  options.height = 1600;  // all of the panel is in it: what is not cannot be clicked
+  return options;
+}
+
+const Material& shown(LiveViewer& live, std::string_view name) {
+  const std::vector<Material>& materials = live->state().snapshot->mesh->materials;
+  return materials.at(live->edits().find(name));
+}
+
+bool carriedOut(LiveViewer& live) {
+  return live.until([&] {
+    return live->edits().materials() == live->state().snapshot->mesh->materials &&
+           live->state().phase == SessionPhase::kConverged;
+  });
+}
+
+double meanIrradiance(LiveViewer& live) {
+  double sum = 0;
+  for (const glm::vec3& h : live->state().snapshot->irradiance) sum += static_cast<double>(h.x + h.y + h.z);
+  return sum / static_cast<double>(live->state().snapshot->irradiance.size());
+}
+
+TEST(Materials, ActionsChangeThemWhileTheSolveGoesOn) {
+  LiveViewer live(cornellBox("wait converged\nreflectance red 0.1,0.2,0.7\nemission light 34,24,8\n"));
+  ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
+  ASSERT_TRUE(carriedOut(live));
+  EXPECT_EQ(shown(live, "red").reflectance, glm::dvec3(0.1, 0.2, 0.7));
+  EXPECT_EQ(shown(live, "light").emission, glm::dvec3(34, 24, 8));
+  EXPECT_EQ(live->state().epoch, 1u) << "began anew";
+  const double bright = meanIrradiance(live);
+  live->perform("light", "light off");
+  ASSERT_TRUE(carriedOut(live));
+  EXPECT_EQ(live->state().stopped_by, "no light");
+  EXPECT_EQ(meanIrradiance(live), 0);
+  live->perform("light", "light on");
+  ASSERT_TRUE(carriedOut(live));
+  EXPECT_EQ(shown(live, "light").emission, glm::dvec3(34, 24, 8)) << "as it was switched off";
+  EXPECT_NEAR(meanIrradiance(live), bright, 0.01 * bright);  // the error asked for
+  EXPECT_FALSE(live->error());
+}
+
+TEST(Materials, AnyCanBeALight) {
+  LiveViewer live(cornellBox("wait converged\nlight green on\nlight light off\n"));
+  ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
+  ASSERT_TRUE(carriedOut(live));
+  EXPECT_EQ(shown(live, "green").emission, glm::dvec3(17, 12, 4)) << "as much as the other light";
+  EXPECT_GT(meanIrradiance(live), 1);
+}
+
+TEST(Materials, UndoAndRedoGoStepByStep) {
+  LiveViewer live(cornellBox());
+  ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
+  const std::vector<Material> opened = live->edits().materials();
+  EXPECT_FALSE(live->edits().edited());
+  live->perform("undo");
+  live->perform("reflectance", "red 0.5,0.5,0.5");
+  const std::vector<Material> once = live->edits().materials();
+  live->perform("emission", "light 1,1,1");
+  const std::vector<Material> twice = live->edits().materials();
+  live->perform("undo");
+  EXPECT_EQ(live->edits().materials(), once);
+  live->perform("undo");
+  EXPECT_EQ(live->edits().materials(), opened);
+  EXPECT_FALSE(live->edits().canUndo());
+  live->perform("redo");
+  live->perform("redo");
+  EXPECT_EQ(live->edits().materials(), twice);
+  EXPECT_FALSE(live->edits().canRedo());
+  live->perform("reset-materials");
+  EXPECT_EQ(live->edits().materials(), opened);
+  live->perform("undo");
+  EXPECT_EQ(live->edits().materials(), twice);
+  ASSERT_TRUE(carriedOut(live));
+  // With another scene all of it is gone.
+  live->perform("open", (std::filesystem::path(UNSHOT_SOURCE_DIR) / "assets/two_patches.obj").string());
+  ASSERT_TRUE(live.until([&] { return live->state().epoch == 2; }));
+  EXPECT_FALSE(live->edits().canUndo());
+  EXPECT_FALSE(live->edits().edited());
+}
+
+TEST(Materials, ADragIsUndoneAsOne) {
+  MaterialEdits edits;
+  edits.begin({{"wall", glm::dvec3(0.5), {}}});
+  for (const double x : {0.1, 0.2, 0.3}) edits.setReflectance(0, glm::dvec3(x), 7.5);
+  edits.setReflectance(0, glm::dvec3(0.4), 9.0);
+  edits.undo();
+  EXPECT_EQ(edits.materials()[0].reflectance, glm::dvec3(0.3));
+  edits.undo();
+  EXPECT_EQ(edits.materials()[0].reflectance, glm::dvec3(0.5));
+}
+
+TEST(Materials, WhatCannotBeIsSaidAndChangesNothing) {
+  LiveViewer live(cornellBox());
+  ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
+  for (const auto& [action, argument, message] :
+       {std::array<std::string, 3>{"reflectance", "red 0.5,0.5,1.5", "r,g,b from 0 on to 1"},
+        {"reflectance", "brown 0.5,0.5,0.5", "one of: white, red, green, light"},
+        {"emission", "light -1,0,0", "r,g,b from 0 on"},
+        {"light", "light", "on or off"}}) {
+    live->perform(action, argument);
+    ASSERT_TRUE(live->error()) << action;
+    EXPECT_THAT(live->error()->fullText(), HasSubstr(message));
+    live->perform("dismiss");
+  }
+  EXPECT_FALSE(live->edits().edited());
+}
+
+TEST(Materials, AreSavedAsTheyAreShown) {
+  const TempFolder folder;
+  const std::string file = (folder.path() / "edited.mtl").string();
+  LiveViewer live(cornellBox("wait converged\nreflectance red 0.1,0.2,0.7\nsave-materials " + file + "\n"));
+  ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
+  // The scene with this file in the place of its own is the same.
+  std::filesystem::copy_file(std::filesystem::path(UNSHOT_SOURCE_DIR) / "assets/cornell_box.obj",
+                             folder.path() / "cornell_box.obj");
+  std::filesystem::rename(file, folder.path() / "cornell_box.mtl");
+  EXPECT_EQ(readObj(folder.path() / "cornell_box.obj").materials, live->edits().materials());
+}
+
+TEST(Materials, TheLightInThePanelIsSwitched) {
+  LiveViewer live(cornellBox("wait converged\nmaterials on\n"));
+  ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
+  live->ui().material = live->edits().find("light");
+  live.draw();
+  live.draw();
+  char name[32];
+  std::snprintf(name, sizeof name, "panel/sections_%08X",
+                ImGui::FindWindowByName("panel")->GetID("sections"));
+  ImGui::ActivateItem(ImHashStr("##light", 0, ImGui::FindWindowByName(name)->ID));
+  for (int frame = 0; frame < 3; ++frame) {
+    live->input();
+    live.draw();
+  }
+  EXPECT_FALSE(live->edits().materials()[live->ui().material].emits());
+  ASSERT_TRUE(carriedOut(live));
+  EXPECT_EQ(live->state().stopped_by, "no light");
+}
+
+// What is remembered stays comparable, since the mesh is the same.
+TEST(Materials, TheLightBeforeAnEditCanBeComparedWith) {
+  LiveViewer live(cornellBox("wait converged\nremember\nreflectance red 0.1,0.2,0.7\nwait converged\n"));
+  ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
+  ASSERT_TRUE(carriedOut(live));
+  EXPECT_TRUE(live->ui().settings.view.reference);
+}
+
+}  // namespace
+}  // namespace unshot
