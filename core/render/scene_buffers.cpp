@@ -214,6 +214,7 @@ void SceneBuffers::beginMesh(const std::shared_ptr<const Mesh>& shared_mesh) {
   beginUnlit(unlit);
   sendAll(mesh_uploads_, triangles_, own(mesh.triangle_vertices));
   triangle_index_count_ = static_cast<GLsizei>(mesh.triangle_vertices.size());
+  triangle_blocks_ = TriangleBlocks(mesh);
   edges_uploaded_ = false;
 
   beginSides(shared_mesh, unlit);

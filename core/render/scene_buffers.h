@@ -8,6 +8,7 @@
 #include "render/camera.h"
 #include "render/display_modes.h"
 #include "render/reference_light.h"
+#include "render/triangle_blocks.h"
 #include "render/unlit_surfaces.h"
 #include "render/uploads.h"
 #include "session/snapshot.h"
@@ -46,6 +47,7 @@ class SceneBuffers {
   /// Of what was compared with last.
   double referenceMean() const { return reference_light_ ? reference_light_->mean : 0; }
   const gl::Buffer& triangles() const { return triangles_; }
+  const TriangleBlocks& triangleBlocks() const { return triangle_blocks_; }
   const gl::Buffer& edges() const { return edges_; }
   std::size_t triangleCount() const { return static_cast<std::size_t>(triangle_index_count_) / 3; }
   std::size_t unlitCount() const { return unlit_corners_ / 3; }  ///< triangles of bindUnlit()
@@ -83,6 +85,7 @@ class SceneBuffers {
   std::shared_ptr<const ReferenceLight> reference_light_;   // as uploaded
   gl::Buffer vertices_, irradiance_, direct_, ambient_, unshot_, bounces_, residual_, bounce_irradiance_,
       reference_;
+  TriangleBlocks triangle_blocks_;
   gl::Buffer triangles_, edges_, unlit_;
   gl::Buffer sides_, triangle_elements_, element_irradiance_, element_direct_, element_bounce_;
   gl::Texture sides_texture_, triangle_elements_texture_, element_irradiance_texture_,

@@ -105,8 +105,11 @@ void SceneView::drawPieces(const Camera& camera, double aspect, const FrameWindo
     const gl::Program& program = by_pixel ? by_pixel_program_ : display_program_;
     useDisplay(program, matrix, camera, options, element_light);
     fn.Uniform1i(program.uniform("edges"), 0);
-    fn.Uniform1i(program.uniform("first_triangle"), static_cast<GLint>(pieces.first));
-    draw(GL_TRIANGLES, buffers_.triangles(), 3, pieces.first, std::min(end, triangles));
+    for (const TriangleRun& run : buffers_.triangleBlocks().inView(matrix, glm::vec3(camera.eye),
+                                                                   pieces.first, std::min(end, triangles))) {
+      fn.Uniform1i(program.uniform("first_triangle"), static_cast<GLint>(run.first));
+      draw(GL_TRIANGLES, buffers_.triangles(), 3, run.first, run.end);
+    }
   }
   if (end > triangles && pieces.first < faces) {
     const std::size_t first = std::max(pieces.first, triangles);

@@ -101,6 +101,7 @@ void Lane::edit(const std::vector<Material>& materials, const std::function<gl::
   solve_ = std::make_unique<Solve>(usable(), materials, gl, cancel);
   failure_noted_ = no_more_places_ = no_more_bounces_ = false;
   stale_ = estimates_stale_ = true;
+  pace_ = {};  // the snapshot shows the materials at once
   learnFacts(facts_->options, facts_->load_seconds);
 }
 

@@ -115,7 +115,7 @@ TEST(Actions, ChecksRefuseNonsenseAndNeverThrow) {
                                           "--",
                                           "\xff\xfe",
                                           "\xe2\x88\x9e",
-                                          "on on",
+                                          "on twice",
                                           "OFF",
                                           "1x1",
                                           "x",

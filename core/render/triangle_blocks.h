@@ -1,0 +1,44 @@
+// Blocks of a mesh's display triangles, so that those that a view cannot see are not drawn.
+#pragma once
+
+#include <cstddef>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace unshot {
+
+/// Triangles [first, end).
+struct TriangleRun {
+  std::size_t first = 0, end = 0;
+  bool operator==(const TriangleRun&) const = default;
+};
+
+class TriangleBlocks {
+ public:
+  static constexpr std::size_t kTriangles = 512;  ///< of a block
+
+  TriangleBlocks() = default;
+  explicit TriangleBlocks(const Mesh& mesh);
+
+  /// Those of [first, end) that may be seen: all but blocks that lie beside the view or behind the eye, and
+  /// flat ones that face away. In their order, as few runs as that takes.
+  std::vector<TriangleRun> inView(const glm::mat4& view_projection, const glm::vec3& eye, std::size_t first,
+                                  std::size_t end) const;
+
+ private:
+  struct Block {
+    glm::vec3 least, most;
+    glm::vec3 normal{0.0f};  ///< of all its triangles; 0: they differ
+    glm::vec3 corner(int k) const {
+      return {k & 1 ? most.x : least.x, k & 2 ? most.y : least.y, k & 4 ? most.z : least.z};
+    }
+  };
+  static bool isInView(const Block& block, const glm::mat4& view_projection, const glm::vec3& eye);
+
+  std::vector<Block> blocks_;
+};
+
+}  // namespace unshot
