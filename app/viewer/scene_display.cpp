@@ -203,14 +203,14 @@ bool SceneDisplay::drawPieces(const LinearTarget& target, const Wanted& wanted, 
   target.bind();
   double now = wallSeconds();
   do {
-    const std::size_t count =
+    const std::size_t most =
         deadline == kAtOnce ? all - piece : pieces_.next(deadline - now, all - piece, kFewestPieces);
-    view_.drawPieces(wanted.camera, aspect, window, view, {piece, count});
-    piece += count;
+    const DrawnPieces drawn = view_.drawPieces(wanted.camera, aspect, window, view, {piece, all, most});
+    piece = drawn.end;
     if (deadline == kAtOnce) continue;
     fn.Finish();  // else a software renderer only takes notes
     const double start = std::exchange(now, wallSeconds());
-    pieces_.note(count, now - start);
+    if (drawn.count > 0) pieces_.note(drawn.count, now - start);
   } while (piece < all && now < deadline);
   return piece >= all;
 }

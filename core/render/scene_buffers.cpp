@@ -205,6 +205,7 @@ void SceneBuffers::beginMesh(const std::shared_ptr<const Mesh>& shared_mesh) {
   const std::size_t sides_shown = mesh.sides.size() + unlit.surfaces.size();
   checkTexels(fn, std::max({mesh.triangle_element.size(), std::size_t{mesh.element_count}, 2 * sides_shown}));
   mesh_uploads_.clear();
+  mesh_ = shared_mesh;
   bounds_ = {mesh.bounds_min, mesh.bounds_max};
   const auto own = [&]<class T>(const std::vector<T>& values) {
     return std::shared_ptr<const std::vector<T>>(shared_mesh, &values);

@@ -77,8 +77,8 @@ void SceneView::useDisplay(const gl::Program& program, const glm::mat4& matrix, 
   }
 }
 
-void SceneView::drawPieces(const Camera& camera, double aspect, const FrameWindow& window,
-                           const ViewOptions& options, Pieces pieces) {
+DrawnPieces SceneView::drawPieces(const Camera& camera, double aspect, const FrameWindow& window,
+                                  const ViewOptions& options, Pieces pieces) {
   const gl::Functions& fn = context_.functions();
   const DisplayMode& mode = displayMode(options.display);
   setPassState(fn, true);
@@ -88,7 +88,8 @@ void SceneView::drawPieces(const Camera& camera, double aspect, const FrameWindo
     fn.ClearBufferfv(GL_COLOR, 0, nothing);
     fn.ClearBufferfv(GL_DEPTH, 0, &depth.farthest);
   }
-  if (!buffers_.mesh() || pieces.count == 0) return;
+  DrawnPieces drawn{pieces.first, 0};
+  if (!buffers_.mesh() || pieces.first >= pieces.end) return drawn;
 
   const glm::mat4 matrix = viewProjection(camera, aspect, buffers_.bounds(), window, depth.range);
   const gl::Texture& element_light = buffers_.bind(options.light, mode.quantity, options.reference);
@@ -99,31 +100,40 @@ void SceneView::drawPieces(const Camera& camera, double aspect, const FrameWindo
                     reinterpret_cast<const void*>(corners * first * sizeof(std::uint32_t)));
   };
   const std::size_t triangles = buffers_.triangleCount(), faces = triangles + buffers_.unlitCount();
-  const std::size_t end = pieces.first + pieces.count;
-  if (pieces.first < triangles) {
+  // How many of those before `end` are still to be drawn.
+  const auto left = [&](std::size_t end) {
+    return std::min(pieces.most - drawn.count, std::min(end, pieces.end) - drawn.end);
+  };
+  if (drawn.end < triangles) {
     const bool by_pixel = mode.per_element || buffers_.hasField(mode.quantity);
     const gl::Program& program = by_pixel ? by_pixel_program_ : display_program_;
     useDisplay(program, matrix, camera, options, element_light);
     fn.Uniform1i(program.uniform("edges"), 0);
-    for (const TriangleRun& run : buffers_.triangleBlocks().inView(matrix, glm::vec3(camera.eye),
-                                                                   pieces.first, std::min(end, triangles))) {
+    const TrianglesInView seen = buffers_.triangleBlocks().inView(
+        matrix, glm::vec3(camera.eye), {drawn.end, std::min(pieces.end, triangles)}, pieces.most);
+    for (const TriangleRun& run : seen.runs) {
       fn.Uniform1i(program.uniform("first_triangle"), static_cast<GLint>(run.first));
       draw(GL_TRIANGLES, buffers_.triangles(), 3, run.first, run.end);
     }
+    drawn = {seen.end, seen.count};
   }
-  if (end > triangles && pieces.first < faces) {
-    const std::size_t first = std::max(pieces.first, triangles);
-    drawUnlit(matrix, camera, options, element_light, first - triangles, std::min(end, faces) - first);
+  if (drawn.end >= triangles && drawn.end < faces) {
+    const std::size_t count = left(faces);
+    drawUnlit(matrix, camera, options, element_light, drawn.end - triangles, count);
+    drawn = {drawn.end + count, drawn.count + count};
   }
-  if (end > faces) {
+  if (drawn.end >= faces && drawn.end < pieces.end) {
+    const std::size_t first = drawn.end - faces, count = left(pieces.end);
     buffers_.bind(options.light, mode.quantity, options.reference);
     useDisplay(by_pixel_program_, matrix, camera, options, element_light);
     fn.Uniform1i(by_pixel_program_.uniform("edges"), 1);
     fn.Enable(GL_CLIP_DISTANCE0);
-    draw(GL_LINES, buffers_.edges(), 2, std::max(pieces.first, faces) - faces, end - faces);
+    draw(GL_LINES, buffers_.edges(), 2, first, first + count);
     fn.Disable(GL_CLIP_DISTANCE0);
+    drawn = {drawn.end + count, drawn.count + count};
   }
   fn.BindVertexArray(0);
+  return drawn;
 }
 
 void SceneView::drawUnlit(const glm::mat4& matrix, const Camera& camera, const ViewOptions& options,

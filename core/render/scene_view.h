@@ -43,7 +43,13 @@ struct Viewport {
 /// Some of what a picture is drawn from: its triangles, in their order, then those of surfaces without a lit
 /// side, then its edges.
 struct Pieces {
-  std::size_t first = 0, count = 0;
+  std::size_t first = 0, end = 0;
+  std::size_t most = ~std::size_t{0};  ///< of them that may be seen
+};
+
+/// What was drawn of them: all before `end` that may be seen, which were `count`.
+struct DrawnPieces {
+  std::size_t end = 0, count = 0;
 };
 
 /// Draws one state of a solve. All calls on the thread where the context is current.
@@ -77,9 +83,9 @@ class SceneView {
                   bool with_edges = true);
   /// How many pieces the picture has.
   std::size_t pieceCount(const ViewOptions& options, bool with_edges = true);
-  /// The same for some of its pieces; the first one clears.
-  void drawPieces(const Camera& camera, double aspect, const FrameWindow& window, const ViewOptions& options,
-                  Pieces pieces);
+  /// The same for some of its pieces; the first one clears. Those that the view cannot see are passed over.
+  DrawnPieces drawPieces(const Camera& camera, double aspect, const FrameWindow& window,
+                         const ViewOptions& options, Pieces pieces);
   /// Automatic exposure of `samples`, which become bound; 1 for modes that are not tone-mapped.
   double meter(const LinearTarget& samples, const ViewOptions& options);
   /// Shows `samples` (options.supersampling along a pixel's side), from their pixel row `first_row` on, in

@@ -61,18 +61,21 @@ bool TriangleBlocks::isInView(const Block& block, const glm::mat4& view_projecti
   return !(left || right || below || above || behind || away);
 }
 
-std::vector<TriangleRun> TriangleBlocks::inView(const glm::mat4& view_projection, const glm::vec3& eye,
-                                                std::size_t first, std::size_t end) const {
-  std::vector<TriangleRun> out;
-  while (first < end) {
-    const std::size_t block = first / kTriangles, stop = std::min(end, (block + 1) * kTriangles);
+TrianglesInView TriangleBlocks::inView(const glm::mat4& view_projection, const glm::vec3& eye,
+                                       const TriangleRun& among, std::size_t most) const {
+  TrianglesInView out{{}, among.first, 0};
+  while (out.end < among.end && out.count < most) {
+    const std::size_t block = out.end / kTriangles;
+    std::size_t stop = std::min(among.end, (block + 1) * kTriangles);
     if (isInView(blocks_[block], view_projection, eye)) {
-      if (!out.empty() && out.back().end == first)
-        out.back().end = stop;
+      stop = out.end + std::min(stop - out.end, most - out.count);
+      if (!out.runs.empty() && out.runs.back().end == out.end)
+        out.runs.back().end = stop;
       else
-        out.push_back({first, stop});
+        out.runs.push_back({out.end, stop});
+      out.count += stop - out.end;
     }
-    first = stop;
+    out.end = stop;
   }
   return out;
 }

@@ -16,6 +16,12 @@ struct TriangleRun {
   bool operator==(const TriangleRun&) const = default;
 };
 
+struct TrianglesInView {
+  std::vector<TriangleRun> runs;  ///< in their order, as few as it takes
+  std::size_t end = 0;            ///< all that may be seen and are before it are in them ...
+  std::size_t count = 0;          ///< ... so many
+};
+
 class TriangleBlocks {
  public:
   static constexpr std::size_t kTriangles = 512;  ///< of a block
@@ -23,10 +29,10 @@ class TriangleBlocks {
   TriangleBlocks() = default;
   explicit TriangleBlocks(const Mesh& mesh);
 
-  /// Those of [first, end) that may be seen: all but blocks that lie beside the view or behind the eye, and
-  /// flat ones that face away. In their order, as few runs as that takes.
-  std::vector<TriangleRun> inView(const glm::mat4& view_projection, const glm::vec3& eye, std::size_t first,
-                                  std::size_t end) const;
+  /// Those of `among` that may be seen, at most so many: all but blocks that lie beside the view or behind
+  /// the eye, and flat ones that face away.
+  TrianglesInView inView(const glm::mat4& view_projection, const glm::vec3& eye, const TriangleRun& among,
+                         std::size_t most = ~std::size_t{0}) const;
 
  private:
   struct Block {

@@ -24,12 +24,28 @@ View viewOf(const Mesh& mesh, const Camera& camera) {
   return {camera, viewProjection(camera, 1.5, {mesh.bounds_min, mesh.bounds_max}, {}, DepthRange::kReversed)};
 }
 
+// How many there are where they come in parts.
+std::size_t inParts(const Mesh& mesh, const View& view) {
+  const TriangleBlocks blocks(mesh);
+  const std::size_t triangles = mesh.triangle_vertices.size() / 3;
+  std::size_t count = 0;
+  for (TrianglesInView part; part.end < triangles;) {
+    part = blocks.inView(view.matrix, glm::vec3(view.camera.eye), {part.end, triangles}, 700);
+    EXPECT_LE(part.count, 700u);
+    count += part.count;
+  }
+  return count;
+}
+
 std::vector<char> drawn(const Mesh& mesh, const View& view) {
   const std::size_t triangles = mesh.triangle_vertices.size() / 3;
   std::vector<char> out(triangles);
   std::size_t last = 0;
-  for (const TriangleRun& run :
-       TriangleBlocks(mesh).inView(view.matrix, glm::vec3(view.camera.eye), 0, triangles)) {
+  const TrianglesInView all =
+      TriangleBlocks(mesh).inView(view.matrix, glm::vec3(view.camera.eye), {0, triangles});
+  EXPECT_EQ(all.end, triangles);
+  EXPECT_EQ(inParts(mesh, view), all.count);
+  for (const TriangleRun& run : all.runs) {
     EXPECT_LT(run.first, run.end);
     EXPECT_TRUE(run.first > last || run.first == 0) << "runs that could be one";
     last = run.end;

@@ -157,8 +157,12 @@ TEST_P(UnlitSurfacesOn, AreDrawnInAnyPieces) {
     const std::size_t all = view.pieceCount(options);
     const auto drawn = [&](std::size_t at_once) {
       target.bind();
-      for (std::size_t first = 0; first < all; first += at_once)
-        view.drawPieces(camera, 4.0 / 3, {}, options, {first, std::min(at_once, all - first)});
+      for (std::size_t first = 0; first < all;) {
+        const DrawnPieces some = view.drawPieces(camera, 4.0 / 3, {}, options, {first, all, at_once});
+        EXPECT_LE(some.count, at_once);
+        EXPECT_GT(some.end, first);
+        first = some.end;
+      }
       return target.read();
     };
     const std::vector<glm::vec4> whole = drawn(all);
