@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/point_tree.h"
 #include "base/text.h"
@@ -306,7 +307,9 @@ SurfacesOfScene findSurfaces(const Scene& scene, const MeshOptions& options, con
   sayExtremeSize(mesh, scene);
   mesh.weld_distance = weldDistance(scene);
   out.crossings = findCrossings(mesh, 2 * mesh.weld_distance, cancel);
+  const double plan_began = wallSeconds();
   makeSides(options, sidesToKeep(options, out.edges, out.crossings, mesh, cancel), mesh);
+  out.plan_seconds = wallSeconds() - plan_began;
   putLitTrianglesFirst(mesh);
   findBetween(options.sky, mesh, cancel);
   return out;

@@ -40,6 +40,7 @@ struct SurfacesOfScene {
   Mesh mesh;  ///< surfaces, the triangles of lit ones first (mesh/lit.h), and sides; no elements
   std::vector<SurfaceEdge> edges;
   std::vector<Crossing> crossings;
+  double plan_seconds = 0;  ///< wall time it took to find out which sides light reaches
 };
 
 /// Throws Error (kInput) where no polygon has area; Cancelled where `cancel` asks for it.

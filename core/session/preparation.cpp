@@ -93,7 +93,10 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
   const bool may_follow = !options.mesh && !finenessGiven(options) && leaves(plan_keys::kEvenLight);
   const MeshOptions mesh_options = meshOptions(scene, options);
   std::optional<SurfacesOfScene> surfaces;
-  if (!out.mesh) surfaces = findSurfaces(scene, mesh_options, cancel);
+  if (!out.mesh) {
+    surfaces = findSurfaces(scene, mesh_options, cancel);
+    out.plan_seconds = surfaces->plan_seconds;
+  }
   const std::size_t triangles = litTriangles(surfaces ? surfaces->mesh : *out.mesh).size();
   const bool soonest = options.soonest && triangles <= kMostTriangles && leaves(plan_keys::kHemicubes);
   const auto meshed = [&](bool to_refine) {
@@ -145,8 +148,8 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
                                {},
                                "--form-factors hemicube"});
   }
-  out.mesh_seconds = plan_began - mesh_began;
-  out.plan_seconds = wallSeconds() - plan_began;
+  out.mesh_seconds = plan_began - mesh_began - out.plan_seconds;
+  out.plan_seconds += wallSeconds() - plan_began;
   return out;
 }
 
