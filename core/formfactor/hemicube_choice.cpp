@@ -7,21 +7,23 @@
 #include "base/random.h"
 #include "formfactor/hemicube_picture.h"
 #include "formfactor/hemicube_rays.h"
+#include "mesh/lit.h"
 
 namespace unshot {
 
 ChosenHemicubeView chooseHemicubeView(const FormFactorSetup& setup) {
   const Mesh& mesh = *setup.mesh;
+  const std::size_t triangles = litTriangles(mesh).size();
   HemicubeDrawing drawing = setup.hemicube_drawing;
   if (drawing == HemicubeDrawing::kAuto || drawing == HemicubeDrawing::kClassic) {
-    const bool many = mesh.triangles.size() >
-                      (drawing == HemicubeDrawing::kAuto ? kDrawnTrianglesAuto : kDrawnTrianglesClassic);
+    const bool many =
+        triangles > (drawing == HemicubeDrawing::kAuto ? kDrawnTrianglesAuto : kDrawnTrianglesClassic);
     drawing = many && !setup.gl().info().hardware ? HemicubeDrawing::kRays : HemicubeDrawing::kOpenGl;
   }
   if (drawing != HemicubeDrawing::kRays)
     return {std::make_unique<HemicubePicture>(setup.gl(), mesh), false, {}};
   return {std::make_unique<HemicubeRays>(mesh, setup.cancel), true,
-          "hemicubes are traced with rays: " + std::to_string(mesh.triangles.size()) +
+          "hemicubes are traced with rays: " + std::to_string(triangles) +
               " triangles are too many a picture for a software renderer"};
 }
 

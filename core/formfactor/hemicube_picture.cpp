@@ -10,6 +10,8 @@
 #include <glm/mat4x4.hpp>
 #include <numeric>
 
+#include "mesh/lit.h"
+
 namespace unshot {
 namespace {
 
@@ -33,13 +35,14 @@ std::uint32_t spread(std::uint32_t x) {
   return (x | x << 2) & 0x09249249u;
 }
 
-// Surfaces along a space-filling curve (Morton 1966), so that neighbours in the buffer are neighbours in
+// Lit surfaces along a space-filling curve (Morton 1966), so that neighbours in the buffer are neighbours in
 // space.
 std::vector<std::uint32_t> spatialOrder(const Mesh& mesh) {
   const glm::dvec3 size = glm::max(mesh.bounds_max - mesh.bounds_min, 1e-300);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> keyed;
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
     const Surface& surface = mesh.surfaces[s];
+    if (!isLit(surface)) continue;
     const glm::dvec3 t = (surface.point(surface.extent / 2.0) - mesh.bounds_min) / size;
     const glm::uvec3 q(glm::clamp(t, 0.0, 1.0) * 1023.0);
     keyed.emplace_back(spread(q.x) | spread(q.y) << 1 | spread(q.z) << 2, s);
@@ -65,7 +68,7 @@ HemicubePicture::HemicubePicture(gl::Context& context, const Mesh& mesh)
 
 void HemicubePicture::upload(const Mesh& mesh) {
   std::vector<ItemVertex> vertices;
-  vertices.reserve(3 * mesh.triangles.size());
+  vertices.reserve(3 * litTriangles(mesh).size());
   for (const std::uint32_t s : spatialOrder(mesh)) {
     const Surface& surface = mesh.surfaces[s];
     for (std::uint32_t t = surface.triangles.first; t < surface.triangles.end(); ++t) {

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <thread>
 
+#include "mesh/lit.h"
+
 namespace unshot {
 namespace {
 
@@ -18,7 +20,7 @@ FirstHits makeRays(const Mesh& mesh, const CancelToken& cancel) {
   for (const glm::dvec3& p : mesh.positions) positions.emplace_back(p);
   cancel.check();
   std::vector<std::uint32_t> corners;
-  for (const ChartTriangle& t : mesh.triangles) corners.insert(corners.end(), t.position, t.position + 3);
+  for (const ChartTriangle& t : litTriangles(mesh)) corners.insert(corners.end(), t.position, t.position + 3);
   return {positions, corners, cancel};
 }
 
@@ -26,10 +28,11 @@ FirstHits makeRays(const Mesh& mesh, const CancelToken& cancel) {
 
 HemicubeRays::HemicubeRays(const Mesh& mesh, const CancelToken& cancel)
     : mesh_(mesh), far_(2 * glm::length(mesh.bounds_max - mesh.bounds_min)), rays_(makeRays(mesh, cancel)) {
-  triangles_.resize(mesh.triangles.size());
+  triangles_.resize(litTriangles(mesh).size());
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
     cancel.check();
     const Surface& surface = mesh.surfaces[s];
+    if (!isLit(surface)) continue;
     for (std::uint32_t t = surface.triangles.first; t < surface.triangles.end(); ++t) {
       triangles_[t].surface = s;
       const glm::dmat3 heights = outlineHeights(mesh.triangles[t], far_);

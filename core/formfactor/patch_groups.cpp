@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "mesh/lit.h"
+
 namespace unshot {
 namespace {
 
@@ -35,7 +37,9 @@ PatchGroups::PatchGroups(const Mesh& mesh, std::uint32_t most)
     for (std::uint32_t k = 0; node.first_child != kNone && k < node.child_count; ++k)
       patches_in[n] += patches_in[node.first_child + k];
   }
-  for (const Surface& s : mesh.surfaces) climb(mesh, s.root, most, patches_in, kNone, top_of);
+  for (const Surface& s : mesh.surfaces) {
+    if (isLit(s)) climb(mesh, s.root, most, patches_in, kNone, top_of);
+  }
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> found;
   for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
     const Side& side = mesh.sides[mesh.patch_side[q]];

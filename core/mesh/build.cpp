@@ -5,15 +5,15 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/point_tree.h"
 #include "base/text.h"
-#include "mesh/contacts.h"
 #include "mesh/display.h"
 #include "mesh/grid.h"
+#include "mesh/lit.h"
 #include "mesh/numbering.h"
 #include "mesh/reach.h"
-#include "mesh/surfaces.h"
 #include "mesh/weld.h"
 
 namespace unshot {
@@ -65,7 +65,7 @@ class Fronts {
 
 // Two flags for each surface: whether light may reach that side, which it does not where nothing of the scene
 // lies in front of it (and its own meets nothing then), nor where surfaces keep it away (mesh/reach.h).
-std::vector<char> sidesToKeep(const MeshOptions& options, const SurfaceTopology& topology,
+std::vector<char> sidesToKeep(const MeshOptions& options, const std::vector<SurfaceEdge>& edges,
                               std::span<const Crossing> crossings, Mesh& mesh, const CancelToken& cancel) {
   const std::size_t count = 2 * mesh.surfaces.size();
   std::vector<char> keep(count, 1), sees(count);
@@ -86,8 +86,7 @@ std::vector<char> sidesToKeep(const MeshOptions& options, const SurfaceTopology&
     const bool light = mesh.materials[mesh.surfaces[k / 2].material].emits();
     emits[k] = sees[k] && light && !(k % 2 != 0 && options.emit_front_only);
   }
-  const std::vector<char> reached =
-      findReach(mesh, topology.edges, crossings, emits, mesh.weld_distance, cancel);
+  const std::vector<char> reached = findReach(mesh, edges, crossings, emits, mesh.weld_distance, cancel);
   for (std::size_t k = 0; k < count; ++k) keep[k] = keep[k] && (reached[k] || !sees[k]);
   return keep;
 }
@@ -114,11 +113,10 @@ void makeSides(const MeshOptions& options, const std::vector<char>& keep, Mesh& 
 int litSides(const Surface& s) { return (s.side[0] != kNone) + (s.side[1] != kNone); }
 
 void findBetween(bool sky, Mesh& mesh, const CancelToken& cancel) {
-  const Fronts fronts(
-      mesh, [](const Surface& s) { return litSides(s) > 0; }, cancel);
+  const Fronts fronts(mesh, isLit, cancel);
   for (Surface& s : mesh.surfaces) {
     cancel.check();
-    s.between = litSides(s) > 0 && (sky || (fronts.seesSomething(s, false) && fronts.seesSomething(s, true)));
+    s.between = isLit(s) && (sky || (fronts.seesSomething(s, false) && fronts.seesSomething(s, true)));
   }
 }
 
@@ -153,6 +151,7 @@ glm::uvec2 cellsOf(const Mesh& mesh, const Surface& s, double size, bool paired)
 }
 
 double elementsOf(const Mesh& mesh, const Surface& s, double size, bool paired) {
+  if (!isLit(s)) return 0;
   const glm::dvec2 cells(cellsOf(mesh, s, size, paired));
   return litSides(s) * std::max(1.0, cells.x * cells.y * s.area / (s.extent.x * s.extent.y));
 }
@@ -180,7 +179,7 @@ void gridAll(Mesh& mesh, const std::vector<double>& sizes, bool paired, const Co
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
     Surface& surface = mesh.surfaces[s];
     cancel.check();
-    if (litSides(surface) == 0) continue;
+    if (!isLit(surface)) continue;
     const glm::uvec2 cells = cellsOf(mesh, surface, sizes[s], paired);
     gridSurface(mesh, s, cells.x, cells.y, patch_cells, paired, contacts[s], tolerance, cancel);
   }
@@ -279,9 +278,7 @@ void sayExtremeSize(Mesh& mesh, const Scene& scene) {
        scene.path.string(), "another unit of length"});
 }
 
-}  // namespace
-
-Mesh buildMesh(const Scene& scene, const MeshOptions& options, const CancelToken& cancel) {
+void checkFineness(const MeshOptions& options) {
   if (options.elements && options.element_size) {
     throw Error(ErrorKind::kUsage, "--elements and --element-size exclude each other");
   }
@@ -289,26 +286,43 @@ Mesh buildMesh(const Scene& scene, const MeshOptions& options, const CancelToken
       (options.element_size && !(*options.element_size > 0 && std::isfinite(*options.element_size)))) {
     throw Error(ErrorKind::kUsage, "the number or the size of elements must be above zero");
   }
-  Mesh mesh;
+}
+
+}  // namespace
+
+SurfacesOfScene findSurfaces(const Scene& scene, const MeshOptions& options, const CancelToken& cancel) {
+  SurfacesOfScene out;
+  Mesh& mesh = out.mesh;
   mesh.frame_origin = scene.frame_origin;
   mesh.bounds_min = scene.bounds_min;
   mesh.bounds_max = scene.bounds_max;
   mesh.materials = scene.materials;
   SurfaceTopology topology = makeSurfaces(scene, weld(scene, cancel), options.join_polygons, mesh, cancel);
   mesh.smooth_pairs = std::move(topology.smooth_pairs);
+  out.edges = std::move(topology.edges);
   if (mesh.surfaces.empty()) {
     throw Error(ErrorKind::kInput, "no face of the scene has any area", scene.path.string(),
                 "unshot check on the scene");
   }
   sayExtremeSize(mesh, scene);
-  const double tolerance = mesh.weld_distance = weldDistance(scene);
-  const std::vector<Crossing> crossings = findCrossings(mesh, 2 * tolerance, cancel);
-  makeSides(options, sidesToKeep(options, topology, crossings, mesh, cancel), mesh);
+  mesh.weld_distance = weldDistance(scene);
+  out.crossings = findCrossings(mesh, 2 * mesh.weld_distance, cancel);
+  const double plan_began = wallSeconds();
+  makeSides(options, sidesToKeep(options, out.edges, out.crossings, mesh, cancel), mesh);
+  out.plan_seconds = wallSeconds() - plan_began;
+  putLitTrianglesFirst(mesh);
   findBetween(options.sky, mesh, cancel);
-  cancel.check();
+  return out;
+}
+
+Mesh meshSurfaces(SurfacesOfScene surfaces, const MeshOptions& options, const CancelToken& cancel) {
+  checkFineness(options);
+  Mesh mesh = std::move(surfaces.mesh);
+  const double tolerance = mesh.weld_distance;
   const double size = options.element_size.value_or(
       std::sqrt(mesh.lit_area / static_cast<double>(options.elements.value_or(kDefaultElements))));
-  const Contacts contacts = findContacts(mesh, topology.edges, crossings, 2 * tolerance, size, cancel);
+  const Contacts contacts =
+      findContacts(mesh, surfaces.edges, surfaces.crossings, 2 * tolerance, size, cancel);
   if (options.elements) {
     gridForCount(mesh, static_cast<double>(*options.elements), options.paired_cells, contacts, tolerance,
                  cancel);
@@ -319,6 +333,11 @@ Mesh buildMesh(const Scene& scene, const MeshOptions& options, const CancelToken
   numberElements(mesh, cancel);
   makeDisplay(mesh, cancel);
   return mesh;
+}
+
+Mesh buildMesh(const Scene& scene, const MeshOptions& options, const CancelToken& cancel) {
+  checkFineness(options);
+  return meshSurfaces(findSurfaces(scene, options, cancel), options, cancel);
 }
 
 }  // namespace unshot

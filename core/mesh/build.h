@@ -3,9 +3,12 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "base/cancel.h"
+#include "mesh/contacts.h"
 #include "mesh/mesh.h"
+#include "mesh/surfaces.h"
 #include "scene/scene.h"
 
 namespace unshot {
@@ -32,8 +35,22 @@ struct MeshOptions {
 inline constexpr std::uint64_t kDefaultElements = 10'000;
 inline constexpr std::uint64_t kMostElements = 20'000'000;
 
-/// Throws Error: kUsage for impossible options or a fineness beyond kMostElements, kInput where no polygon
-/// has area; Cancelled where `cancel` asks for it.
+/// What a mesh begins with, however fine it becomes.
+struct SurfacesOfScene {
+  Mesh mesh;  ///< surfaces, the triangles of lit ones first (mesh/lit.h), and sides; no elements
+  std::vector<SurfaceEdge> edges;
+  std::vector<Crossing> crossings;
+  double plan_seconds = 0;  ///< wall time it took to find out which sides light reaches
+};
+
+/// Throws Error (kInput) where no polygon has area; Cancelled where `cancel` asks for it.
+SurfacesOfScene findSurfaces(const Scene& scene, const MeshOptions& options, const CancelToken& cancel = {});
+
+/// `options`: those that the surfaces were found with, but for the fineness. Throws Error (kUsage) for
+/// impossible options or a fineness beyond kMostElements; Cancelled where `cancel` asks for it.
+Mesh meshSurfaces(SurfacesOfScene surfaces, const MeshOptions& options, const CancelToken& cancel = {});
+
+/// Both, and throws what they throw.
 Mesh buildMesh(const Scene& scene, const MeshOptions& options, const CancelToken& cancel = {});
 
 }  // namespace unshot

@@ -8,6 +8,7 @@
 
 #include "base/box_tree.h"
 #include "mesh/clip.h"
+#include "mesh/lit.h"
 
 namespace unshot {
 namespace {
@@ -152,23 +153,28 @@ std::optional<ContactSegment> crossing(const Surface& surface, const std::array<
 }
 
 // Edges no higher above a surface than `reachOf` says that lie within its rectangle, where
-// `accepts(height, length)`.
-template <class Reach, class Accept>
+// `accepts(height, length)`: of those surfaces that `counts`.
+template <class Counts, class Reach, class Accept>
 std::vector<Touch> edgesNear(const Mesh& mesh, const std::vector<SurfaceEdge>& edges, double distance,
-                             const Reach& reachOf, const Accept& accepts, const CancelToken& cancel) {
+                             const Counts& counts, const Reach& reachOf, const Accept& accepts,
+                             const CancelToken& cancel) {
   // Each edge once, however many polygons share it; `first` is the first of its uses.
   std::vector<std::uint32_t> first;
   std::vector<Box> boxes;
-  for (std::uint32_t k = 0; k < edges.size(); ++k) {
-    if (k > 0 && edges[k].a == edges[k - 1].a && edges[k].b == edges[k - 1].b) continue;
+  const auto same = [&](std::uint32_t k, std::uint32_t use) {
+    return use < edges.size() && edges[use].a == edges[k].a && edges[use].b == edges[k].b;
+  };
+  for (std::uint32_t k = 0, end = 0; k < edges.size(); k = end) {
+    bool of_any = false;
+    for (end = k; same(k, end); ++end) of_any = of_any || counts(mesh.surfaces[edges[end].surface]);
+    if (!of_any) continue;
     const glm::dvec3 &p = mesh.positions[edges[k].a], &q = mesh.positions[edges[k].b];
     first.push_back(k);
     boxes.push_back({glm::min(p, q), glm::max(p, q)});
   }
   // Whether the surface has the edge itself: then it is outline already.
   const auto owns = [&](std::uint32_t surface, std::uint32_t k) {
-    for (std::uint32_t use = k;
-         use < edges.size() && edges[use].a == edges[k].a && edges[use].b == edges[k].b; ++use) {
+    for (std::uint32_t use = k; same(k, use); ++use) {
       if (edges[use].surface == surface) return true;
     }
     return false;
@@ -178,6 +184,7 @@ std::vector<Touch> edgesNear(const Mesh& mesh, const std::vector<SurfaceEdge>& e
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
     cancel.check();
     const Surface& surface = mesh.surfaces[s];
+    if (!counts(surface)) continue;
     const double reach = reachOf(surface);
     Box box{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
     for (std::uint32_t t = surface.triangles.first; t < surface.triangles.end(); ++t) {
@@ -241,7 +248,7 @@ std::vector<Crossing> findCrossings(const Mesh& mesh, double distance, const Can
 std::vector<Touch> findTouches(const Mesh& mesh, const std::vector<SurfaceEdge>& edges, double distance,
                                const CancelToken& cancel) {
   return edgesNear(
-      mesh, edges, distance, [&](const Surface&) { return distance; },
+      mesh, edges, distance, [](const Surface&) { return true; }, [&](const Surface&) { return distance; },
       [&](double height, double) { return height <= distance; }, cancel);
 }
 
@@ -255,7 +262,7 @@ Contacts findContacts(const Mesh& mesh, const std::vector<SurfaceEdge>& edges,
   };
   Contacts out(mesh.surfaces.size());
   const auto accepts = [&](double height, double length) { return height <= distance || length >= size; };
-  for (const Touch& touch : edgesNear(mesh, edges, distance, reachOf, accepts, cancel))
+  for (const Touch& touch : edgesNear(mesh, edges, distance, isLit, reachOf, accepts, cancel))
     out[touch.surface].push_back(touch.line);
   for (const Crossing& c : crossings) out[c.surface].push_back(c.line);
   return out;

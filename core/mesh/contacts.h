@@ -40,8 +40,9 @@ struct Touch {
 std::vector<Touch> findTouches(const Mesh& mesh, const std::vector<SurfaceEdge>& edges, double distance,
                                const CancelToken& cancel = {});
 
-/// Contact segments of each surface, `crossings` among them. `size` [m]: edge of an element as far as it is
-/// known; long edges that come nearer than a quarter of it to a large surface's plane count as well.
+/// Contact segments of each lit surface with lit ones, `crossings` among them. `size` [m]: edge of an element
+/// as far as it is known; long edges that come nearer than a quarter of it to a large surface's plane count
+/// as well.
 std::vector<std::vector<ContactSegment>> findContacts(const Mesh& mesh, const std::vector<SurfaceEdge>& edges,
                                                       std::span<const Crossing> crossings, double distance,
                                                       double size, const CancelToken& cancel = {});

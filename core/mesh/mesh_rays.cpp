@@ -2,21 +2,25 @@
 
 #include <algorithm>
 
+#include "mesh/lit.h"
+
 namespace unshot {
 namespace {
 
 SceneRays raysOf(const Mesh& mesh) {
+  const std::span<const ChartTriangle> triangles = litTriangles(mesh);
   std::vector<std::uint32_t> corners;
-  corners.reserve(3 * mesh.triangles.size());
-  for (const ChartTriangle& t : mesh.triangles) corners.insert(corners.end(), t.position, t.position + 3);
+  corners.reserve(3 * triangles.size());
+  for (const ChartTriangle& t : triangles) corners.insert(corners.end(), t.position, t.position + 3);
   return {mesh.positions, corners};
 }
 
 }  // namespace
 
-MeshRays::MeshRays(const Mesh& mesh) : mesh_(mesh), rays_(raysOf(mesh)), surface_of_(mesh.triangles.size()) {
+MeshRays::MeshRays(const Mesh& mesh) : mesh_(mesh), rays_(raysOf(mesh)), surface_of_(rays_.triangleCount()) {
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
     const Range& range = mesh.surfaces[s].triangles;
+    if (!isLit(mesh.surfaces[s])) continue;
     std::fill_n(surface_of_.begin() + range.first, range.count, s);
   }
 }

@@ -9,7 +9,8 @@
 
 namespace unshot {
 
-/// SceneRays of a mesh: its triangles are Mesh::triangles, so a hit's `back` is the back of its surface.
+/// SceneRays of what light reaches: their triangles are litTriangles(), numbered as Mesh::triangles, so a
+/// hit's `back` is the back of its surface.
 class MeshRays {
  public:
   struct Hit {
@@ -25,7 +26,7 @@ class MeshRays {
   std::optional<Hit> intersect(const glm::dvec3& origin, const glm::dvec3& direction) const;
   /// For lifted(), occluded() and points on triangles.
   const SceneRays& rays() const { return rays_; }
-  /// Surface of each of Mesh::triangles.
+  /// Surface of each of litTriangles().
   std::uint32_t surfaceOf(std::uint32_t triangle) const { return surface_of_[triangle]; }
 
  private:

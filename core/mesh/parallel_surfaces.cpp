@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "mesh/lit.h"
+
 namespace unshot {
 namespace {
 
@@ -11,8 +13,7 @@ constexpr double kParallelCosine = 0.9994;
 
 std::vector<Box> boxesOf(const Mesh& mesh) {
   std::vector<Box> boxes;
-  boxes.reserve(mesh.triangles.size());
-  for (const ChartTriangle& t : mesh.triangles) {
+  for (const ChartTriangle& t : litTriangles(mesh)) {
     const glm::dvec3 &a = mesh.positions[t.position[0]], &b = mesh.positions[t.position[1]],
                      &c = mesh.positions[t.position[2]];
     boxes.push_back({glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c)});
@@ -32,8 +33,9 @@ bool holds(const ChartTriangle& t, const glm::dvec2& p) {
 }  // namespace
 
 ParallelSurfaces::ParallelSurfaces(const Mesh& mesh, const CancelToken& cancel)
-    : mesh_(mesh), surface_of_(mesh.triangles.size()), tree_(boxesOf(mesh), cancel) {
+    : mesh_(mesh), surface_of_(litTriangles(mesh).size()), tree_(boxesOf(mesh), cancel) {
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
+    if (!isLit(mesh.surfaces[s])) continue;
     const Range& range = mesh.surfaces[s].triangles;
     std::fill_n(surface_of_.begin() + range.first, range.count, s);
   }

@@ -42,9 +42,11 @@ class Reach {
         shell_known_(lit_.size(), 0),
         shell_touched_(lit_.size(), 0),
         seen_(lit_.size()) {
+    std::unordered_set<std::uint64_t> known;  // a surface may touch another one with many edges
     for (const Touch& t : touches) {
       for (std::uint32_t use = t.edge;
            use < edges.size() && edges[use].a == edges[t.edge].a && edges[use].b == edges[t.edge].b; ++use) {
+        if (!known.insert(std::uint64_t{t.surface} << 32 | edges[use].surface).second) continue;
         const auto [low, high] = heights(mesh, edges[use].surface, mesh.surfaces[t.surface]);
         for (const std::uint32_t s : {t.surface, edges[use].surface})
           shell_touched_[shells.of(2 * s)] = shell_touched_[shells.of(2 * s + 1)] = 1;

@@ -190,7 +190,7 @@ bool LightLooks::seesAnything(const Sampler& sampler, const MeshRays& rays) cons
     const glm::dvec2 random = Sampler::direction(seed);
     const auto hit = rays.intersect(from, cosineDirection(start.normal, random.x, random.y));
     if (hit && light_of_[hit->surface] != light) return true;
-    const auto t = static_cast<std::uint32_t>(random.x * static_cast<double>(mesh_.triangles.size()));
+    const auto t = static_cast<std::uint32_t>(random.x * static_cast<double>(rays.rays().triangleCount()));
     if (light_of_[rays.surfaceOf(t)] == light) continue;
     const SceneRays::Triangle& triangle = rays.rays().triangle(t);
     const glm::dvec3 way = triangle.point(random.y, unitInterval(mixBits(seed + 6))) - from;

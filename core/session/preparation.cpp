@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/clock.h"
 #include "base/text.h"
 #include "formfactor/methods.h"
 #include "mesh/build.h"
+#include "mesh/lit.h"
 #include "scene/sky.h"
 #include "session/light_refinement.h"
 #include "session/scene_checks.h"
@@ -26,7 +28,7 @@ constexpr double kFewestBase = 100, kMostBase = 10'000;
 // looks are some ten seconds: the teapot in its box, 4e8 of them, is sooner by hemicubes, two_rooms, 4e7, by
 // rays.
 constexpr double kMostLooks = 6e7;
-// Of scenes with more than so many triangles that needs no mesh to be known.
+// Of scenes with more than so many triangles that light reaches, that needs no mesh to be known.
 constexpr std::size_t kMostTriangles = 50'000;
 
 bool atVertices(const std::string& method) {
@@ -46,21 +48,20 @@ MeshOptions meshOptions(const Scene& scene, const SolveOptions& options) {
           .sky = skyOver(scene, options.sky) != glm::dvec3(0.0)};
 }
 
-std::shared_ptr<const Mesh> uniformMesh(const Scene& scene, const SolveOptions& options,
+std::shared_ptr<const Mesh> uniformMesh(const SurfacesOfScene& surfaces, const MeshOptions& options,
                                         const CancelToken& cancel) {
-  return std::make_shared<const Mesh>(buildMesh(scene, meshOptions(scene, options), cancel));
+  return std::make_shared<const Mesh>(meshSurfaces(surfaces, options, cancel));
 }
 
 // The mesh to be refined, of as many elements as the error asks for.
-std::shared_ptr<const Mesh> baseMesh(const Scene& scene, const SolveOptions& options,
-                                     const CancelToken& cancel) {
+std::shared_ptr<const Mesh> baseMesh(const SurfacesOfScene& surfaces, const SolveOptions& options,
+                                     MeshOptions mesh_options, const CancelToken& cancel) {
   const double wanted = kBaseElements * std::pow(0.01 / options.error, 1 / kOrder);
   const auto elements = static_cast<std::uint64_t>(
       std::min(std::clamp(wanted, kFewestBase, kMostBase), static_cast<double>(options.max_elements)));
-  MeshOptions mesh_options = meshOptions(scene, options);
   mesh_options.elements = elements;
   mesh_options.paired_cells = true;
-  Mesh mesh = buildMesh(scene, mesh_options, cancel);
+  Mesh mesh = meshSurfaces(surfaces, mesh_options, cancel);
   std::erase_if(mesh.diagnostics, [](const Diagnostic& d) { return d.code == "element-count"; });
   return std::make_shared<const Mesh>(std::move(mesh));
 }
@@ -90,11 +91,20 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
   const auto leaves = [&](std::string_view key) { return leavesOut(options.do_anyway, key); };
   const bool automatic = out.form_factors == "auto";
   const bool may_follow = !options.mesh && !finenessGiven(options) && leaves(plan_keys::kEvenLight);
-  const bool soonest =
-      options.soonest && scene.triangle_count <= kMostTriangles && leaves(plan_keys::kHemicubes);
+  const MeshOptions mesh_options = meshOptions(scene, options);
+  std::optional<SurfacesOfScene> surfaces;
+  if (!out.mesh) {
+    surfaces = findSurfaces(scene, mesh_options, cancel);
+    out.plan_seconds = surfaces->plan_seconds;
+  }
+  const std::size_t triangles = litTriangles(surfaces ? surfaces->mesh : *out.mesh).size();
+  const bool soonest = options.soonest && triangles <= kMostTriangles && leaves(plan_keys::kHemicubes);
+  const auto meshed = [&](bool to_refine) {
+    return to_refine ? baseMesh(*surfaces, options, mesh_options, cancel)
+                     : uniformMesh(*surfaces, mesh_options, cancel);
+  };
   bool to_refine = may_follow && (automatic ? soonest : atVertices(out.form_factors));
-  if (!out.mesh)
-    out.mesh = to_refine ? baseMesh(scene, options, cancel) : uniformMesh(scene, options, cancel);
+  if (!out.mesh) out.mesh = meshed(to_refine);
   bool by_rays = false;
   if (automatic) {
     const double looks =
@@ -103,10 +113,10 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
     by_rays = !closed_form && soonest && looks <= kMostLooks;
     out.form_factors = closed_form ? "closed-form" : by_rays ? "rays" : "hemicube";
     const bool follows = may_follow && atVertices(out.form_factors);
-    if (follows != to_refine)
-      out.mesh = follows ? baseMesh(scene, options, cancel) : uniformMesh(scene, options, cancel);
+    if (follows != to_refine) out.mesh = meshed(follows);
     to_refine = follows;
   }
+  surfaces.reset();
   std::vector<PlanDecision> decisions;
   if (by_rays) decisions.push_back(withoutHemicubes(*out.mesh));
   if (to_refine) out.mesh = refined(out.mesh, options, out.form_factors, decisions, cancel);
@@ -138,8 +148,8 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
                                {},
                                "--form-factors hemicube"});
   }
-  out.mesh_seconds = plan_began - mesh_began;
-  out.plan_seconds = wallSeconds() - plan_began;
+  out.mesh_seconds = plan_began - mesh_began - out.plan_seconds;
+  out.plan_seconds += wallSeconds() - plan_began;
   return out;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "formfactor/methods.h"
+#include "mesh/lit.h"
 
 namespace unshot {
 namespace {
@@ -44,7 +45,9 @@ void addSides(const Mesh& mesh, std::vector<PlanDecision>& out) {
     std::size_t sides = 0;
     double area = 0;
   } outer, dark;
+  std::size_t unlit = 0;
   for (const Surface& s : mesh.surfaces) {
+    unlit += !isLit(s);
     for (int back = 0; back < 2; ++back) {
       if (s.side[back] != kNone) continue;
       Left& left = s.outer[back] ? outer : dark;
@@ -52,18 +55,22 @@ void addSides(const Mesh& mesh, std::vector<PlanDecision>& out) {
       left.area += s.area;
     }
   }
-  const auto add = [&](std::string_view key, const Left& left, std::string_view why) {
+  const auto add = [&](std::string_view key, const Left& left, std::string why) {
     if (left.sides == 0) return;
     const double share = left.area / (outer.area + dark.area + mesh.lit_area);
     out.push_back(decision(key,
                            "elements on " + std::to_string(left.sides) + " of " +
                                std::to_string(2 * mesh.surfaces.size()) + " surface sides",
-                           std::string(why),
+                           std::move(why),
                            std::to_string(static_cast<int>(100 * share + 0.5)) + " % of the elements"));
   };
   add(plan_keys::kOuterSides, outer,
       "nothing of the scene lies in front of them, so no light can reach them");
-  add(plan_keys::kDarkSides, dark, "closed surfaces lie between them and every light");
+  add(plan_keys::kDarkSides, dark,
+      "closed surfaces lie between them and every light" +
+          (unlit == 0 ? ""
+                      : "; " + countedText(unlit, "surface") + " without a lit side " +
+                            (unlit == 1 ? "is" : "are") + " in pictures only"));
 }
 
 }  // namespace

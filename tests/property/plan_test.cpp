@@ -9,6 +9,7 @@
 #include "export/probes.h"
 #include "session/scene_plan.h"
 #include "support/random_scene.h"
+#include "support/sanitized.h"
 #include "support/solving.h"
 #include "support/test_scenes.h"
 
@@ -175,6 +176,70 @@ TEST_P(WithinTheError, OfTheScene) {
 INSTANTIATE_TEST_SUITE_P(Decisions, WithinTheError,
                          testing::Values(plan_keys::kTriangles, plan_keys::kHemicubes, plan_keys::kEvenLight),
                          [](const auto& key) { return testName(key.param); });
+
+// A room as some programs write it, its walls cut into so many squares along each edge, with a block in it.
+Scene roomOfSquares(int along) {
+  SceneBuilder b;
+  const auto grey = b.material("grey", glm::dvec3(0.5, 0.6, 0.7)),
+             lamp = b.material("lamp", glm::dvec3(0.3), glm::dvec3(4));
+  const auto wall = [&](const glm::dvec3& corner, glm::dvec3 u, glm::dvec3 v) {
+    u /= along;
+    v /= along;
+    for (int i = 0; i < along; ++i) {
+      for (int j = 0; j < along; ++j) b.quad(grey, corner + double(i) * u + double(j) * v, u, v);
+    }
+  };
+  const glm::dvec3 x(4, 0, 0), y(0, 3, 0), z(0, 0, 4);
+  wall({0, 0, 0}, z, x);
+  wall(y, x, z);
+  wall({0, 0, 0}, x, y);
+  wall(z, y, x);
+  wall({0, 0, 0}, y, z);
+  wall(x, z, y);
+  addBox(b, allOf(grey), {1, 0.5, 1}, {1, 1, 1}, false);
+  b.quad(lamp, {2, 2.9, 1}, {1, 0, 0}, {0, 0, 1});
+  return b.finish();
+}
+
+// Else each of them is a patch at least.
+TEST(Plan, SavesPatchesWhereFlatWallsAreCutIntoMany) {
+  const Pair pair = solvedBothWays([] { return roomOfSquares(20); }, soonest(0.02), plan_keys::kTriangles);
+  const auto cpu = [](const Solve& solve) { return solve.seconds().cpu_solve; };
+  measured("patches", pair.without->mesh().patch_count);
+  measured("patches otherwise", pair.with->mesh().patch_count);
+  const double cpu_ratio = cpu(*pair.without) / cpu(*pair.with);
+  measured("CPU over what it is otherwise", cpu_ratio);
+  if (!kSanitized) EXPECT_LT(cpu_ratio, 0.6);
+  EXPECT_LT(4 * pair.without->mesh().patch_count, pair.with->mesh().patch_count);
+}
+
+// A dome over a floor, which does not close it: outside it has an element on each face at least.
+TEST(Plan, SavesElementsOutsideOfADome) {
+  const auto dome = [] {
+    constexpr int kRings = 10;
+    SceneBuilder b;
+    const auto grey = b.material("grey", glm::dvec3(0.5)),
+               lamp = b.material("lamp", glm::dvec3(0.3), glm::dvec3(4));
+    const auto at = [](int ring, int step) {
+      const double up = 1.5 * ring / kRings,
+                   around = 2 * std::acos(-1) * (step % (4 * kRings)) / (4 * kRings);
+      return glm::dvec3(std::sin(up) * std::cos(around), std::cos(up), std::sin(up) * std::sin(around));
+    };
+    for (int ring = 0; ring < kRings; ++ring) {
+      for (int step = 0; step < 4 * kRings; ++step) {
+        b.polygon(grey, {at(ring, step), at(ring + 1, step), at(ring + 1, step + 1)});
+        if (ring > 0) b.polygon(grey, {at(ring, step), at(ring + 1, step + 1), at(ring, step + 1)});
+      }
+    }
+    b.quad(grey, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0});
+    b.quad(lamp, {-0.2, 0.7, -0.2}, {0.4, 0, 0}, {0, 0, 0.4});
+    return b.finish();
+  };
+  const Pair pair = solvedBothWays(dome, soonest(0.02), plan_keys::kOuterSides);
+  measured("elements", pair.without->mesh().element_count);
+  measured("elements otherwise", pair.with->mesh().element_count);
+  EXPECT_LT(1.4 * pair.without->mesh().element_count, pair.with->mesh().element_count);
+}
 
 TEST(Plan, IsSwitchedOffAsAWhole) {
   SolveOptions options = soonest(0.05);

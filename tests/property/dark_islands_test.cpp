@@ -1,0 +1,96 @@
+// Parts of a scene that no light reaches take no part in its solution and cost nothing of it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "base/clock.h"
+#include "export/probes.h"
+#include "mesh/lit.h"
+#include "support/many_rooms.h"
+#include "support/sanitized.h"
+#include "support/solving.h"
+
+namespace unshot {
+namespace {
+
+using namespace testing_support;
+
+constexpr int kRooms = 12, kRings = 20, kRingsOfOthers = 36;
+
+SolveOptions soonest() {
+  SolveOptions options;
+  options.soonest = true;
+  options.error = 0.02;
+  return options;
+}
+
+/// On walls, floor and ball of a room.
+std::vector<Probe> probesIn(int room) {
+  const glm::dvec3 corner = cornerOfRoom(room);
+  std::vector<Probe> out;
+  for (double a = 0.25; a < 4; a += 0.5) {
+    for (double b = 0.25; b < 3; b += 0.5) {
+      out.push_back({corner + glm::dvec3(0, b, a), {1, 0, 0}});
+      out.push_back({corner + glm::dvec3(4, b, a), {-1, 0, 0}});
+      out.push_back({corner + glm::dvec3(a, b, 0), {0, 0, 1}});
+      out.push_back({corner + glm::dvec3(a, 0, b), {0, 1, 0}});
+    }
+  }
+  out.push_back({corner + glm::dvec3(2, 2, 2), {0, 1, 0}});
+  out.push_back({corner + glm::dvec3(2, 0.4, 2), {0, -1, 0}});
+  return out;
+}
+
+struct Timed {
+  std::unique_ptr<Solve> solve;
+  double cpu_seconds = 0;
+};
+Timed timed(int rooms) {
+  Scene scene = manyRooms(rooms, kRings, kRingsOfOthers);
+  const double began = cpuSeconds();
+  Timed out;
+  out.solve = solved(std::move(scene), soonest());
+  out.cpu_seconds = cpuSeconds() - began;
+  return out;
+}
+
+// More triangles than rays are for, of which light reaches a thirtieth.
+TEST(DarkIslands, TakeNoPartInTheSolution) {
+  const Timed one = timed(1), many = timed(kRooms);
+  const Mesh &alone = one.solve->mesh(), &mesh = many.solve->mesh();
+  EXPECT_GT(mesh.triangles.size(), 50'000u);
+  EXPECT_EQ(litTriangles(mesh).size(), litTriangles(alone).size());
+  EXPECT_EQ(many.solve->formFactorsKey(), one.solve->formFactorsKey());
+  EXPECT_EQ(mesh.sides.size(), alone.sides.size());
+  EXPECT_EQ(mesh.patch_count, alone.patch_count);
+  // Cells are cut where rays, which begin elsewhere by rounding, find shadows.
+  EXPECT_NEAR(mesh.element_count, alone.element_count, 0.01 * alone.element_count);
+
+  // The same light but for rays that go elsewhere: to the error asked for.
+  const std::vector<Probe> here = probesIn(0);
+  const auto a = answerProbes(one.solve->snapshot(), here, false),
+             b = answerProbes(many.solve->snapshot(), here, false);
+  double apart = 0, light = 0;
+  for (std::size_t k = 0; k < here.size(); ++k) {
+    ASSERT_TRUE(a[k] && b[k]) << k;
+    apart += glm::dot(*a[k] - *b[k], *a[k] - *b[k]);
+    light += glm::dot(*a[k], *a[k]);
+  }
+  measured("apart", std::sqrt(apart / light));
+  EXPECT_LT(std::sqrt(apart / light), soonest().error);
+
+  for (const int k : {1, 6, kRooms - 1}) {
+    for (const auto& dark : answerProbes(many.solve->snapshot(), probesIn(k), true)) {
+      ASSERT_TRUE(dark);
+      EXPECT_EQ(*dark, glm::dvec3(0.0)) << "room " << k;
+    }
+  }
+  // Were the dark rooms solved, it would be thirty times. To find out that they are dark takes some 10 us a
+  // triangle; machines and the moment make a third.
+  measured("CPU over that of the lit room alone", many.cpu_seconds / one.cpu_seconds);
+  if (!kSanitized) EXPECT_LT(many.cpu_seconds, 3 * one.cpu_seconds);
+}
+
+}  // namespace
+}  // namespace unshot
