@@ -83,6 +83,7 @@ class Lane {
   bool no_more_places_ = false;                              // the scene has none, or estimating failed
   bool complete_bounces_ = false, no_more_bounces_ = false;  // asked for; working them out failed
 
+  std::shared_ptr<const std::vector<std::uint32_t>> surface_lines_;
   std::shared_ptr<const SolveFacts> facts_;
   std::shared_ptr<const Snapshot> snapshot_;
   std::shared_ptr<const std::vector<HistoryEntry>> history_;
