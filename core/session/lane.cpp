@@ -157,11 +157,26 @@ bool Lane::hasBounceWork() const {
 }
 
 bool Lane::spareWork(double interval) {
-  if (hasBounceWork()) return workOutBounces(interval);
-  // When those in passing were chosen is a matter of time: an estimate at rest is the same each time.
-  if (std::exchange(places_in_passing_, false)) solve_->forgetPlaces();
-  estimateFrom(std::min(kPlacesAtOnce, kPlacesAtRest - std::min(kPlacesAtRest, solve_->places())));
+  bool show = true;
+  if (hasBounceWork()) {
+    show = workOutBounces(interval);
+  } else {
+    // When those in passing were chosen is a matter of time: an estimate at rest is the same each time.
+    if (std::exchange(places_in_passing_, false)) solve_->forgetPlaces();
+    estimateFrom(std::min(kPlacesAtOnce, kPlacesAtRest - std::min(kPlacesAtRest, solve_->places())));
+  }
+  if (!sumRows()) return show;
+  stale_ = true;
   return true;
+}
+
+bool Lane::sumRows() {
+  try {
+    return solve_->sumRows();
+  } catch (...) {
+    noteException();
+    return false;
+  }
 }
 
 bool Lane::workOutBounces(double interval) {
