@@ -95,10 +95,10 @@ void values(const PickedPoint& point, const Snapshot& snapshot) {
     ImGui::EndTable();
   }
   for (const PickedQuantity& quantity : pickedQuantities()) {
-    if (!quantity.one_channel) continue;
+    if (!quantity.one_channel || point.pick.side == kNone) continue;
     const auto value = quantity.of(point, snapshot);
-    if (!value) continue;
-    line(std::string(quantity.title).c_str(), figureText(value->x) + " " + std::string(quantity.unit),
+    const std::string unit = quantity.unit.empty() ? "" : " " + std::string(quantity.unit);
+    line(std::string(quantity.title).c_str(), value ? figureText(value->x) + unit : "not known",
          quantity.tip);
   }
 }
@@ -170,9 +170,9 @@ bool probeHead(Viewer& viewer, std::size_t k) {
   return !gone;
 }
 
-// Marks.
+// Marks: bright with a dark rim, to be seen on anything.
 
-const ImU32 kAmber = IM_COL32(255, 190, 90, 255), kShade = IM_COL32(0, 0, 0, 170);
+const ImU32 kBright = IM_COL32(255, 248, 235, 255), kShade = IM_COL32(0, 0, 0, 190);
 
 /// Over one of the pictures.
 struct MarkedPicture {
@@ -189,7 +189,7 @@ struct MarkedPicture {
 
 void cross(ImDrawList& list, const ImVec2& at, float size) {
   for (const bool shade : {true, false}) {
-    const ImU32 colour = shade ? kShade : kAmber;
+    const ImU32 colour = shade ? kShade : kBright;
     const float thick = (shade ? 0.25f : 0.11f) * size;
     list.AddCircle(at, 0.5f * size, colour, 24, thick);
     for (const ImVec2 d : {ImVec2(1, 0), ImVec2(-1, 0), ImVec2(0, 1), ImVec2(0, -1)}) {
@@ -204,17 +204,17 @@ void markPicked(ImDrawList& list, const MarkedPicture& picture, const PickedPoin
     const auto from = picture.at(glm::dvec3(a)), to = picture.at(glm::dvec3(b));
     if (!from || !to) continue;
     list.AddLine(*from, *to, kShade, 0.2f * size);
-    list.AddLine(*from, *to, kAmber, 0.1f * size);
+    list.AddLine(*from, *to, kBright, 0.1f * size);
   }
   if (const auto at = picture.at(point.pick.position)) cross(list, *at, size);
 }
 
 void markProbe(ImDrawList& list, const ImVec2& at, const std::string& number, float size) {
   list.AddCircleFilled(at, 0.28f * size, kShade);
-  list.AddCircleFilled(at, 0.2f * size, kAmber);
+  list.AddCircleFilled(at, 0.2f * size, kBright);
   const ImVec2 beside(at.x + 0.4f * size, at.y - 1.1f * size);
   list.AddText({beside.x + 1, beside.y + 1}, kShade, number.c_str());
-  list.AddText(beside, kAmber, number.c_str());
+  list.AddText(beside, kBright, number.c_str());
 }
 
 }  // namespace

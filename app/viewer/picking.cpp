@@ -55,6 +55,8 @@ Value residualOf(const PickedPoint& point, const Snapshot& s) {
   return value && value->x > 0 ? value : std::nullopt;  // not looked at there
 }
 
+Value rowSumOf(const PickedPoint& point, const Snapshot& s) { return fieldAt(point, s.row_sums); }
+
 constexpr std::string_view kLight = "W/m\u00b2";
 
 constexpr std::array kQuantities = {
@@ -93,6 +95,13 @@ constexpr std::array kQuantities = {
         "By how much the light of the patch misses B = E + \u03c1 K B where that is looked at off the "
         "mesh (RMS over channels) [W/m\u00b2]",
         true, residualOf},
+    PickedQuantity{"Row sum of K", "",
+                   "\u2211 K over the patches that have light and the sky: the part of what this point sees "
+                   "that is lit, 1 where "
+                   "nothing escapes. Known at rest, once their form factors are at hand (below Bounces, "
+                   "those missing are "
+                   "computed)",
+                   true, rowSumOf},
 };
 
 std::string number(double x) {

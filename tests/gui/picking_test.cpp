@@ -16,6 +16,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing_support::LiveViewer;
+using testing_support::picture;
 using testing_support::ProgramResult;
 using testing_support::runProgram;
 using testing_support::runScript;
@@ -94,6 +95,9 @@ TEST(Picking, ShowsWhatProbesShowAndFollowsTheLight) {
     const auto value = quantity.of(picked(live), snapshot);
     EXPECT_FALSE(quantity.tip.empty()) << quantity.title;
     EXPECT_EQ(quantity.unit.empty(), quantity.tip.find("[") == std::string_view::npos) << quantity.title;
+    if (quantity.title == "Row sum of K" && value) {
+      EXPECT_NEAR(value->x, 1, 0.2) << "hardly anything escapes there";
+    }
     if (quantity.title != "Power of patch") continue;
     ASSERT_TRUE(value);
     EXPECT_NEAR(value->x / snapshot.mesh->patch_area[picked(live).pick.patch] / late.x, 1, 0.3);
@@ -191,6 +195,28 @@ TEST(Picking, CopiesValuesAsText) {
   for (const char* part : {"Surface\tno. ", ", front\n", "Material\twhite\n", "Radiosity B [W/m\u00b2]\t",
                            "Element\t", "Plan\t", "Area of patch [m\u00b2]\t"})
     EXPECT_THAT(text, HasSubstr(part));
+}
+
+// At the first picture too: marks are of the camera that a screenshot is made with.
+TEST(Picking, MarksStandInScreenshots) {
+  const TempFolder folder;
+  const ProgramResult run = runScript(
+      folder,
+      "pause on\nstep 1\nwait shots 1\npick 0.5,0.93\nscreenshot with.png\nunpick\nscreenshot without.png\n",
+      {kCornellBox, "--elements", "300", "--size", "1004x700"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const ImageF with = picture(folder, "with.png"), without = picture(folder, "without.png");
+  int near = 0, far = 0;
+  for (int y = 0; y < 700; ++y) {
+    for (int x = 0; x < 700; ++x) {
+      const auto at = static_cast<std::size_t>(3 * (y * with.width + x));
+      const bool differs = !std::equal(&with.rgb[at], &with.rgb[at] + 3, &without.rgb[at]);
+      // The cross is a line of text high; the patch around it is below 100 wide.
+      (std::abs(x - 350) < 100 && std::abs(y - 651) < 60 ? near : far) += differs;
+    }
+  }
+  EXPECT_GT(near, 100);
+  EXPECT_EQ(far, 0);
 }
 
 // Of the same solve, saved and gone on with: the very same bytes.
