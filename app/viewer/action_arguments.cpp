@@ -131,6 +131,12 @@ std::vector<double> numbersOf(const std::string& text) {
   return numbers;
 }
 
+std::string checkPlace(const std::string& text) {
+  const std::vector<double> n = numbersOf(text);
+  const bool fits = n.size() == 2 && n[0] >= 0 && n[0] <= 1 && n[1] >= 0 && n[1] <= 1;
+  return fits ? "" : "'" + text + "' is no place X,Y in the picture: from 0,0 (left, top) to 1,1";
+}
+
 std::string checkCamera(const std::string& text) {
   const std::vector<double> n = numbersOf(text);
   if (n.size() != 6 && n.size() != 7) return "'" + text + "' is no camera ex,ey,ez,ax,ay,az[,fov]";

@@ -66,6 +66,9 @@ std::optional<PlotAxis> plotAxis(const std::string& text);
 std::string checkSize(const std::string& text);
 std::optional<std::pair<int, int>> sizeOf(const std::string& text);
 
+/// X,Y, each from 0 to 1.
+std::string checkPlace(const std::string& text);
+
 /// ex,ey,ez,ax,ay,az[,fov].
 std::string checkCamera(const std::string& text);
 /// Numbers between commas; none where one of them is no number.

@@ -87,6 +87,7 @@ void Viewer::navigate(double seconds) {
   }
   navigator_.fly(direction, io.KeyShift);
   navigator_.advance(seconds);
+  pickClicked();
   const Camera& after = navigator_.camera();
   if (before.eye != after.eye || before.at != after.at) {
     last_motion_ = last_frame_;

@@ -16,6 +16,8 @@ class Navigator {
 
   /// Around the point looked at; a drag across the height turns by half a turn. Stops short of the poles.
   void orbit(const glm::dvec2& pixels, double height);
+  /// Looks at this point from where it stands; orbits are around it.
+  void lookAt(const glm::dvec3& point) { camera_.at = point; }
   /// Turns the head.
   void look(const glm::dvec2& pixels, double height);
   /// Sideways and up, so that the point looked at stays under the mouse.

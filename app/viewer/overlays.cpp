@@ -4,6 +4,7 @@
 
 #include "viewer/actions.h"
 #include "viewer/panels.h"
+#include "viewer/picked_panel.h"
 #include "viewer/race_panel.h"
 
 namespace unshot {
@@ -18,7 +19,8 @@ struct MouseRow {
   const char* what;
 };
 
-constexpr std::array<MouseRow, 7> kMouse = {{{"Left drag", "Orbit around the point looked at"},
+constexpr std::array<MouseRow, 8> kMouse = {{{"Click", "What is there: light, element, plan"},
+                                             {"Left drag", "Orbit around the point looked at"},
                                              {"Right drag", "Look around"},
                                              {"Middle drag, Shift+left", "Move sideways and up"},
                                              {"Wheel", "Nearer, farther"},
@@ -95,6 +97,7 @@ void buildOverlays(Viewer& viewer, int scene_width, const std::string& notice, b
   const float height = ImGui::GetIO().DisplaySize.y;
   const float middle = static_cast<float>(scene_width) / 2;
   const SessionState& state = viewer.state();
+  buildMarks(viewer, scene_width);
   buildRaceLabels(viewer, scene_width);
   if (state.phase == SessionPhase::kLoading) {
     line("loading", state.task + " \u2026", {middle, height / 2}, {0.5f, 0.5f});

@@ -14,6 +14,7 @@
 #include "viewer/error_panel.h"
 #include "viewer/materials_panel.h"
 #include "viewer/notes_panel.h"
+#include "viewer/picked_panel.h"
 #include "viewer/plan_panel.h"
 #include "viewer/race_panel.h"
 #include "viewer/theme.h"
@@ -353,6 +354,8 @@ void buildSidePanel(Viewer& viewer, int left) {
   ImGui::Separator();
   ImGui::BeginChild("sections");
   warningsSection(viewer);
+  pickedSection(viewer);
+  probesSection(viewer);
   solveSection(viewer);
   errorsSection(viewer);
   convergenceSection(viewer);

@@ -44,6 +44,8 @@ class SceneArea {
   bool drawing() const { return first_.drawing() || second_due_; }
   bool drawnAnew() const { return first_.drawnAnew() || (second_ && second_->drawnAnew()); }
   const Camera& shownCamera() const { return first_.shownCamera(); }
+  /// That of the pictures that are made of this.
+  Camera cameraOf(const Wanted& wanted) const { return firstOf(wanted).camera; }
   void sharpen(int samples, double deadline);
   bool sharp() const { return first_.sharp() && (!second_ || second_->sharp()); }
   std::uint64_t version() const;

@@ -87,6 +87,7 @@ void Viewer::takeState(double now) {
     frame_wanted_ = frame_wanted_ || state_->facts->scene_path != framed_scene_;
   }
   takeMaterials(another);
+  picking_.follow(*state_);
   noteRates(now);
   noteSaved(*before);
   if (state_->problems > problems_seen_ && state_->problem) {
@@ -153,8 +154,10 @@ void Viewer::showError(const Error& error) {
 void Viewer::dismiss() {
   if (error_) {
     error_.reset();
-  } else {
+  } else if (ui_.help) {
     ui_.help = false;
+  } else {
+    unpick();
   }
 }
 
@@ -327,7 +330,7 @@ void Viewer::runScript(double now) {
 }
 
 void Viewer::runScriptLines(double now) {
-  while (script_at_ < script_.size() && !closing_ && captures_.empty()) {
+  while (script_at_ < script_.size() && !closing_ && captures_.empty() && !pick_wanted_) {
     const ScriptLine& line = script_[script_at_];
     if (line.wait != WaitFor::kNothing) {
       if (!waitIsOver(line, now)) return;

@@ -22,6 +22,7 @@
 #include "viewer/gui_renderer.h"
 #include "viewer/material_edits.h"
 #include "viewer/navigator.h"
+#include "viewer/picking.h"
 #include "viewer/scene_area.h"
 #include "viewer/script.h"
 
@@ -107,7 +108,7 @@ class Viewer {
   /// finish() where the window cannot go on, such as after a reset of the driver: saves a solve that is not
   /// kept anyway. Returns the error with the way on.
   Error rescue(const Error& error);
-  bool scriptDone() const { return script_at_ >= script_.size() && captures_.empty(); }
+  bool scriptDone() const { return script_at_ >= script_.size() && captures_.empty() && !pick_wanted_; }
   /// 0, or the exit code of the first thing that failed in the script, or of why there is no scene.
   int exitCode() const { return exit_code_; }
 
@@ -162,6 +163,23 @@ class Viewer {
   void setCamera(const glm::dvec3& eye, const glm::dvec3& at, std::optional<double> fov_deg);
   Navigator& navigator() { return navigator_; }
   void resizeWindow(int width, int height);
+  const Picking& picking() const { return picking_; }
+  /// Picks in the next frame what is at this place in the picture of the present solve, in units of its width
+  /// and height from left and top, [0, 1]; unpicks where there is nothing.
+  void pick(const glm::dvec2& at);
+  void unpick();
+  void pinProbe() { picking_.pin(*state_); }
+  void unpinProbe(std::size_t number) { picking_.unpin(number); }
+  void clearProbes() { picking_.clearProbes(); }
+  /// Writes the pinned probes as `unshot solve --probe-out` does. An empty path: a new name in the working
+  /// folder.
+  void saveProbes(std::filesystem::path path);
+  /// What is picked, to the clipboard.
+  void copyValues();
+  /// Looks at what is picked, and orbits around it.
+  void focusPicked();
+  /// Of the picture that marks are drawn over.
+  Camera markedCamera() const;
   /// Writes what the window shows, with its panels or without. An empty path: a new name in the working
   /// folder.
   void screenshot(std::filesystem::path path, bool with_panels);
@@ -172,7 +190,7 @@ class Viewer {
   void notice(std::string text);
   void showError(const Error& error);
   const std::optional<Error>& error() const { return error_; }
-  /// Closes what lies over the scene: the message, else the help.
+  /// Closes what lies over the scene: the message, else the help, else what is picked.
   void dismiss();
   void close() { closing_ = true; }
 
@@ -206,6 +224,8 @@ class Viewer {
   void forgetOldLight();
   void fail(const Error& error);
   void navigate(double seconds);
+  void pickClicked();
+  void pickAt(const Camera& camera, int width, const glm::dvec2& at);
   bool mayBeSharpened(double now) const;
   double nextPaint() const;
   double nextSceneWork() const;
@@ -246,6 +266,9 @@ class Viewer {
   double picture_cost_ = 0;                      // of the one being drawn, so far
   std::optional<PaintedLook> painted_;
   bool drew_scene_ = false;  // since the last frame
+
+  Picking picking_;
+  std::optional<glm::dvec2> pick_wanted_;
 
   // The scene shown.
   std::filesystem::path framed_scene_;  // the camera is for this one

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "base/csv_table.h"
 #include "base/error.h"
@@ -32,13 +33,35 @@ struct Target {
   }
 };
 
-void addDarkSides(const Mesh& mesh, Target& target) {
+/// What lies within `reach` of some probe, at least. Rounding is far below `reach`.
+struct Box {
+  glm::vec3 low{INFINITY}, high{-INFINITY};
+
+  Box(std::span<const Probe> probes, const glm::dvec3& origin, double reach) {
+    for (const Probe& probe : probes) {
+      const glm::vec3 at(probe.position - origin);
+      low = glm::min(low, at);
+      high = glm::max(high, at);
+    }
+    low -= glm::vec3(2 * static_cast<float>(reach));
+    high += glm::vec3(2 * static_cast<float>(reach));
+  }
+  bool meets(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) const {
+    const glm::vec3 least = glm::min(a, glm::min(b, c)), most = glm::max(a, glm::max(b, c));
+    return glm::all(glm::lessThanEqual(least, high)) && glm::all(glm::greaterThanEqual(most, low));
+  }
+};
+
+void addDarkSides(const Mesh& mesh, const Box& box, Target& target) {
   for (const Surface& surface : mesh.surfaces) {
     for (int back = 0; back < 2; ++back) {
       if (surface.side[back] != kNone) continue;
       for (std::uint32_t t = surface.triangles.first; t < surface.triangles.end(); ++t) {
+        glm::vec3 corner[3];
+        for (int k = 0; k < 3; ++k) corner[k] = glm::vec3(surface.point(mesh.triangles[t].uv[k]));
+        if (!box.meets(corner[0], corner[1], corner[2])) continue;
         const auto first = static_cast<std::uint32_t>(target.positions.size());
-        for (const glm::dvec2& uv : mesh.triangles[t].uv) target.positions.emplace_back(surface.point(uv));
+        target.positions.insert(target.positions.end(), corner, corner + 3);
         if (back) {
           target.add(first, first + 2, first + 1);
         } else {
@@ -49,24 +72,25 @@ void addDarkSides(const Mesh& mesh, Target& target) {
   }
 }
 
-Target targetOf(const Mesh& mesh) {
+// The triangles in the box.
+Target targetOf(const Mesh& mesh, const Box& box) {
   Target target;
   target.positions.reserve(mesh.vertices.size());
   for (const Vertex& vertex : mesh.vertices) target.positions.push_back(vertex.position);
   for (std::size_t k = 0; k + 2 < mesh.triangle_vertices.size(); k += 3) {
-    target.add(mesh.triangle_vertices[k], mesh.triangle_vertices[k + 1], mesh.triangle_vertices[k + 2]);
+    const std::uint32_t* corner = &mesh.triangle_vertices[k];
+    if (box.meets(target.positions[corner[0]], target.positions[corner[1]], target.positions[corner[2]]))
+      target.add(corner[0], corner[1], corner[2]);
   }
   target.displayed = target.normals.size();
-  addDarkSides(mesh, target);
+  addDarkSides(mesh, box, target);
   return target;
 }
 
-/// What `at` says of the vertices of the triangle that each probe lies on.
-template <class F>
-std::vector<std::optional<glm::dvec3>> answer(const Target& target, double reach, const glm::dvec3& origin,
-                                              std::span<const Probe> probes, F&& at) {
+std::vector<std::optional<ProbePlace>> placesOn(const Target& target, double reach, const glm::dvec3& origin,
+                                                std::span<const Probe> probes) {
   const NearestTriangle nearest(target.positions, target.corners);
-  std::vector<std::optional<glm::dvec3>> answers(probes.size());
+  std::vector<std::optional<ProbePlace>> places(probes.size());
   for (std::size_t k = 0; k < probes.size(); ++k) {
     const glm::vec3 normal(glm::normalize(probes[k].normal));
     const auto faces = [&](std::uint32_t triangle) {
@@ -74,13 +98,23 @@ std::vector<std::optional<glm::dvec3>> answer(const Target& target, double reach
     };
     const auto hit = nearest.find(glm::vec3(probes[k].position - origin), static_cast<float>(reach), faces);
     if (!hit) continue;
-    glm::dvec3 b{0.0};
-    if (hit->triangle < target.displayed) {
-      for (int corner = 0; corner < 3; ++corner)
-        b += static_cast<double>(hit->weights[corner]) *
-             at(target.corners[3 * hit->triangle + static_cast<std::uint32_t>(corner)]);
+    ProbePlace place;
+    place.dark = hit->triangle >= target.displayed;
+    for (int corner = 0; corner < 3 && !place.dark; ++corner) {
+      place.vertices[corner] = target.corners[3 * hit->triangle + static_cast<std::uint32_t>(corner)];
+      place.weights[corner] = static_cast<double>(hit->weights[corner]);
     }
-    answers[k] = b;
+    places[k] = place;
+  }
+  return places;
+}
+
+/// The radiosity `of` a vertex, at each place.
+template <class F>
+std::vector<std::optional<glm::dvec3>> answer(const std::vector<std::optional<ProbePlace>>& places, F&& of) {
+  std::vector<std::optional<glm::dvec3>> answers(places.size());
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    if (places[k]) answers[k] = places[k]->value(of);
   }
   return answers;
 }
@@ -124,11 +158,15 @@ std::vector<Probe> readProbes(const std::filesystem::path& path) {
   return probes;
 }
 
+std::vector<std::optional<ProbePlace>> placeProbes(const Mesh& mesh, std::span<const Probe> probes) {
+  const double reach = kReachOfDiagonal * glm::length(mesh.bounds_max - mesh.bounds_min);
+  const Box box(probes, mesh.frame_origin, reach);
+  return placesOn(targetOf(mesh, box), reach, mesh.frame_origin, probes);
+}
+
 std::vector<std::optional<glm::dvec3>> answerProbes(const Snapshot& snapshot, std::span<const Probe> probes,
                                                     bool with_ambient) {
-  const Mesh& mesh = *snapshot.mesh;
-  const double reach = kReachOfDiagonal * glm::length(mesh.bounds_max - mesh.bounds_min);
-  return answer(targetOf(mesh), reach, mesh.frame_origin, probes,
+  return answer(placeProbes(*snapshot.mesh, probes),
                 [&](std::uint32_t vertex) { return radiosity(snapshot, vertex, with_ambient); });
 }
 
@@ -149,7 +187,7 @@ std::vector<std::optional<glm::dvec3>> answerProbes(const PlySolution& solution,
   for (std::size_t k = 0; k + 2 < solution.triangles.size(); k += 3)
     target.add(solution.triangles[k], solution.triangles[k + 1], solution.triangles[k + 2]);
   target.displayed = target.normals.size();
-  return answer(target, kReachOfDiagonal * glm::length(high - low), origin, probes,
+  return answer(placesOn(target, kReachOfDiagonal * glm::length(high - low), origin, probes),
                 [&](std::uint32_t vertex) { return solution.radiosity[vertex]; });
 }
 

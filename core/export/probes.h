@@ -1,6 +1,7 @@
 // Probes: radiosity at given points, as displayed.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -24,9 +25,30 @@ struct Probe {
 /// Throws Error (kInput, with file:line).
 std::vector<Probe> readProbes(const std::filesystem::path& path);
 
-/// B [W/m^2] (with E) at each probe: interpolated over the display triangles of the nearest surface side
-/// whose normal is within 60 degrees of the probe's. A side that no light can reach counts with B = 0.
-/// Nothing for a probe farther than 1/500 of the scene's diagonal from every such side.
+/// Where on the mesh a probe lies: in a display triangle, or on a side that no light can reach.
+struct ProbePlace {
+  bool dark = false;
+  std::uint32_t vertices[3] = {};  ///< in Mesh::vertices, unless dark
+  glm::dvec3 weights{0.0};         ///< of their values; 0 where it is dark
+
+  /// The value there of a field with one value `of(v)` a vertex.
+  template <class F>
+  glm::dvec3 value(F&& of) const {
+    glm::dvec3 sum{0.0};
+    for (int k = 0; k < 3; ++k) {
+      if (!dark) sum += weights[k] * glm::dvec3(of(vertices[k]));
+    }
+    return sum;
+  }
+};
+
+/// On the nearest surface side whose normal is within 60 degrees of the probe's; nothing for a probe farther
+/// than 1/500 of the scene's diagonal from every such side. For few probes near each other it looks at each
+/// display triangle once and builds nothing.
+std::vector<std::optional<ProbePlace>> placeProbes(const Mesh& mesh, std::span<const Probe> probes);
+
+/// B [W/m^2] (with E) at each probe: interpolated at its place. A side that no light can reach counts with
+/// B = 0. Nothing for a probe that has no place.
 std::vector<std::optional<glm::dvec3>> answerProbes(const Snapshot& snapshot, std::span<const Probe> probes,
                                                     bool with_ambient);
 

@@ -41,6 +41,23 @@ ViewBasis viewBasis(const Camera& camera) {
   return basis;
 }
 
+glm::dvec3 sightAt(const Camera& camera, double aspect, const glm::dvec2& at) {
+  const ViewBasis basis = viewBasis(camera);
+  const double tan_y = tanHalf(camera.fov_deg);
+  return glm::normalize(basis.forward + (2 * at.x - 1) * tan_y * aspect * basis.right +
+                        (1 - 2 * at.y) * tan_y * basis.up);
+}
+
+std::optional<glm::dvec2> placeInPicture(const Camera& camera, double aspect, const glm::dvec3& point) {
+  const ViewBasis basis = viewBasis(camera);
+  const glm::dvec3 sight = point - camera.eye;
+  const double depth = glm::dot(sight, basis.forward);
+  if (!(depth > 0)) return std::nullopt;
+  const double tan_y = tanHalf(camera.fov_deg);
+  return glm::dvec2(0.5 + glm::dot(sight, basis.right) / (2 * depth * tan_y * aspect),
+                    0.5 - glm::dot(sight, basis.up) / (2 * depth * tan_y));
+}
+
 glm::mat4 viewProjection(const Camera& camera, double aspect, const Bounds& bounds, const FrameWindow& window,
                          DepthRange depth) {
   const ViewBasis basis = viewBasis(camera);

@@ -5,6 +5,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 
 namespace unshot {
 
@@ -30,6 +31,12 @@ struct ViewBasis {
 
 /// The camera's axes; where `up` is along the line of sight (or zero), another is taken.
 ViewBasis viewBasis(const Camera& camera);
+
+/// The direction (unit length) in which the camera sees `at` in a picture of this aspect (width / height): a
+/// place in units of its width and height, [0, 1] from left and top.
+glm::dvec3 sightAt(const Camera& camera, double aspect, const glm::dvec2& at);
+/// Where in such a picture the point is; nothing for one behind the eye.
+std::optional<glm::dvec2> placeInPicture(const Camera& camera, double aspect, const glm::dvec3& point);
 
 /// A rectangle of the picture, in units of its width and height: [0, 1] from left and bottom.
 struct FrameWindow {

@@ -90,6 +90,25 @@ void SharedFields::addTo(Snapshot& out, const Transport& transport, const Radios
   out.element_direct = element_direct_;
   out.bounces = bounces_;
   out.residual = residual_;
+  out.row_sums = row_sums_;
+}
+
+bool SharedFields::sumRows(const Mesh& mesh, const Transport& transport, const RadiosityState& state) {
+  for (std::uint32_t q = 0; q < transport.patchCount(); ++q) {
+    const bool dark = state.shot()[q] == glm::dvec3(0.0) && state.unshot()[q] == glm::dvec3(0.0);
+    if (!dark && !transport.isKept(q)) return false;
+  }
+  const SummedColumns columns{transport.keptColumns(), transport.replaced(),
+                              !transport.closure().scale.empty()};
+  if (row_sums_ && summed_ == columns) return false;
+  summed_ = columns;
+  std::vector<glm::dvec3> sums(transport.receiverCount(), glm::dvec3(0.0));
+  for (std::uint32_t q = 0; q < transport.patchCount(); ++q) {
+    if (transport.isKept(q)) transport.kept(q)->forEach([&](std::uint32_t v, double k) { sums[v] += k; });
+  }
+  row_sums_ =
+      std::make_shared<const std::vector<glm::vec3>>(makeField(mesh, transport.receivers(), sums).vertices);
+  return true;
 }
 
 void SharedFields::setResidual(const Mesh& mesh, const std::vector<double>& per_patch) {

@@ -30,15 +30,25 @@ class SharedFields {
              const ErrorBounds& bounds);
   /// RMS residual, one per patch [W/m^2].
   void setResidual(const Mesh& mesh, const std::vector<double>& per_patch);
+  /// Sums the rows of K, once the columns of all patches that have light are at hand, of whatever quality.
+  /// Returns whether that is new.
+  bool sumRows(const Mesh& mesh, const Transport& transport, const RadiosityState& state);
   /// The state shoots again from nothing.
   void forgetDirect() { direct_ = element_direct_ = nullptr; }
 
  private:
   using Field = std::shared_ptr<const std::vector<glm::vec3>>;
 
-  Field direct_, element_direct_, bounces_, residual_;
+  Field direct_, element_direct_, bounces_, residual_, row_sums_;
   std::uint64_t emission_shots_ = 0;    // of the state that direct_ is of
   std::uint64_t bounces_revision_ = 0;  // of the bounds
+  /// What the sums of rows are of.
+  struct SummedColumns {
+    std::size_t kept = 0;
+    std::uint64_t replaced = 0;
+    bool closed = false;
+    bool operator==(const SummedColumns&) const = default;
+  } summed_;
 };
 
 }  // namespace unshot

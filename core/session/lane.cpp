@@ -18,11 +18,21 @@ constexpr double kFirstEstimate = 0.25;
 // An estimate passes over the whole mesh: on a larger one it would be felt as a pause.
 constexpr std::size_t kMostElementsInPassing = 200'000;
 
+/// Line in the scene's file of one polygon of each surface.
+std::vector<std::uint32_t> linesOf(const Scene& scene, const Mesh& mesh) {
+  std::vector<std::uint32_t> out;
+  for (const Surface& surface : mesh.surfaces) out.push_back(scene.polygons[surface.polygon].line);
+  return out;
+}
+
 }  // namespace
 
 Lane::Lane(std::unique_ptr<Solve> solve, SolveOptions asked, double load_seconds,
            std::function<void(Error)> note)
-    : solve_(std::move(solve)), note_(std::move(note)) {
+    : solve_(std::move(solve)),
+      note_(std::move(note)),
+      surface_lines_(
+          std::make_shared<const std::vector<std::uint32_t>>(linesOf(solve_->scene(), solve_->mesh()))) {
   const double began = wallSeconds();
   snapshot_ = std::make_shared<const Snapshot>(solve_->snapshot());
   pace_.made(began, wallSeconds());
@@ -44,6 +54,7 @@ void Lane::learnFacts(SolveOptions asked, double load_seconds) {
   facts->plan = solve_->plan();
   facts->diagnostics = solve_->diagnostics();
   facts->triangles = scene.triangle_count;
+  facts->surface_lines = surface_lines_;
   facts->surfaces = mesh.surfaces.size();
   facts->patches = mesh.patch_count;
   facts->elements = mesh.element_count;
@@ -146,11 +157,26 @@ bool Lane::hasBounceWork() const {
 }
 
 bool Lane::spareWork(double interval) {
-  if (hasBounceWork()) return workOutBounces(interval);
-  // When those in passing were chosen is a matter of time: an estimate at rest is the same each time.
-  if (std::exchange(places_in_passing_, false)) solve_->forgetPlaces();
-  estimateFrom(std::min(kPlacesAtOnce, kPlacesAtRest - std::min(kPlacesAtRest, solve_->places())));
+  bool show = true;
+  if (hasBounceWork()) {
+    show = workOutBounces(interval);
+  } else {
+    // When those in passing were chosen is a matter of time: an estimate at rest is the same each time.
+    if (std::exchange(places_in_passing_, false)) solve_->forgetPlaces();
+    estimateFrom(std::min(kPlacesAtOnce, kPlacesAtRest - std::min(kPlacesAtRest, solve_->places())));
+  }
+  if (!sumRows()) return show;
+  stale_ = true;
   return true;
+}
+
+bool Lane::sumRows() {
+  try {
+    return solve_->sumRows();
+  } catch (...) {
+    noteException();
+    return false;
+  }
 }
 
 bool Lane::workOutBounces(double interval) {

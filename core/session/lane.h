@@ -51,7 +51,8 @@ class Lane {
 
   /// Whether estimates or light by bounces get better while nothing is shot.
   bool hasSpareWork() const;
-  /// Light by bounces, then errors estimated from more places. Returns whether that is to be shown now.
+  /// Light by bounces, then errors estimated from more places, and the sums of rows. Returns whether that is
+  /// to be shown now.
   bool spareWork(double interval);
 
   /// Whether a snapshot of a lane under way is due.
@@ -67,6 +68,7 @@ class Lane {
   bool hasLight() const;
   bool hasBounceWork() const;
   bool workOutBounces(double interval);
+  bool sumRows();
   void estimateInPassing();
   void estimateFrom(std::size_t more_places);
   bool wantsSnapshot(bool resting, double interval) const;
@@ -83,6 +85,7 @@ class Lane {
   bool no_more_places_ = false;                              // the scene has none, or estimating failed
   bool complete_bounces_ = false, no_more_bounces_ = false;  // asked for; working them out failed
 
+  std::shared_ptr<const std::vector<std::uint32_t>> surface_lines_;
   std::shared_ptr<const SolveFacts> facts_;
   std::shared_ptr<const Snapshot> snapshot_;
   std::shared_ptr<const std::vector<HistoryEntry>> history_;

@@ -36,6 +36,8 @@ struct SolveFacts {
   std::vector<PlanDecision> plan;
   Diagnostics diagnostics;
   std::size_t triangles = 0;  ///< of the scene
+  /// Line of the scene's file of one polygon of each surface.
+  std::shared_ptr<const std::vector<std::uint32_t>> surface_lines;
   std::size_t surfaces = 0, patches = 0, elements = 0, vertices = 0;
   double load_seconds = 0, mesh_seconds = 0;
 };

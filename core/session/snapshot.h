@@ -72,6 +72,10 @@ struct Snapshot {
   /// Where the mesh is worst: RMS residual of the continuous equation [W/m^2], one per vertex (all channels
   /// alike); null where it is not known.
   std::shared_ptr<const std::vector<glm::vec3>> residual;
+  /// sum_q K_vq over the patches that have light and the sky, one per vertex (all channels alike): 1 where
+  /// nothing else is seen. Null where it is not known: while their columns are missing, or before the solve
+  /// rests.
+  std::shared_ptr<const std::vector<glm::vec3>> row_sums;
   /// Light by bounces; null where it is not known (yet).
   std::shared_ptr<const BounceLight> bounce_light;
   BounceWait bounce_wait;

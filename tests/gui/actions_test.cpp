@@ -96,6 +96,9 @@ const std::map<std::string_view, std::string>& validArguments() {
       {"light", "floor off"},
       {"save-materials", "with.mtl"},
       {"materials", "on"},
+      {"pick", "0.5,0.7"},
+      {"unpin-probe", "1"},
+      {"save-probes", "with.csv"},
   };
   return arguments;
 }
@@ -162,7 +165,7 @@ void performAndSettle(LiveViewer& live, const Action& action, const std::string&
   for (int frame = 0; frame < 5; ++frame) live.draw();
   ASSERT_TRUE(live.until([&] {
     const SessionPhase phase = live->state().phase;
-    return phase != SessionPhase::kLoading && phase != SessionPhase::kRunning &&
+    return phase != SessionPhase::kLoading && phase != SessionPhase::kRunning && live->scriptDone() &&
            (live->state().epoch > epoch || live->error() || !kSolveAnew.contains(action.key));
   }));
 }
@@ -198,10 +201,11 @@ TEST_F(EveryAction, PerformsOnALiveViewer) {
   EXPECT_FALSE(live->closing());
   live->perform("quit");
   EXPECT_TRUE(live->closing());
-  EXPECT_EQ(folder_.names(), (std::set<std::string>{
-                                 "with.png", "without.png", "solution.ply", "unshot-two_patches-001.png",
-                                 "unshot-two_patches-002.png", "with.unshot", "unshot-two_patches-001.unshot",
-                                 "with.mtl", "unshot-two_patches-001.mtl"}));
+  EXPECT_EQ(folder_.names(),
+            (std::set<std::string>{"with.png", "without.png", "solution.ply", "unshot-two_patches-001.png",
+                                   "unshot-two_patches-002.png", "with.unshot",
+                                   "unshot-two_patches-001.unshot", "with.mtl", "unshot-two_patches-001.mtl",
+                                   "with.csv", "unshot-two_patches-001.csv"}));
 }
 
 TEST_F(EveryAction, WithoutASceneNoneCrashes) {

@@ -115,6 +115,20 @@ TEST(Probes, TakeTheSideThatFacesTheNormal) {
   EXPECT_EQ(answers[5], answers[0]) << "the length of the normal says nothing";
 }
 
+// One by one they look at few triangles, together at all.
+TEST(Probes, LieWhereTheyDoAlone) {
+  const Snapshot room = testing_support::RoomBuilder({.frame_origin = {1000, -200, 30}}).build();
+  const Mesh& mesh = *room.mesh;
+  std::vector<Probe> probes;
+  for (const Vertex& v : mesh.vertices) probes.push_back(probeAt(room, glm::dvec3(v.position), v.normal));
+  for (const Vertex& v : mesh.vertices) probes.push_back(probeAt(room, glm::dvec3(v.position), -v.normal));
+  probes.push_back(probeAt(room, {0, 1, 0}, {0, 1, 0}));
+  const auto together = answerProbes(room, probes, false);
+  for (std::size_t k = 0; k < probes.size(); ++k)
+    EXPECT_EQ(answerProbes(room, std::span(&probes[k], 1), false).front(), together[k]) << k;
+  EXPECT_EQ(placeProbes(mesh, {}).size(), 0u);
+}
+
 TEST(Probes, DarkSidesArePresentAndBlack) {
   Snapshot snapshot;
   auto mesh = std::make_shared<Mesh>();

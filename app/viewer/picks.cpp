@@ -1,0 +1,70 @@
+// The viewer's picking: clicks and actions on the one side, rays through the picture on the other.
+#include <imgui.h>
+
+#include "base/atomic_file.h"
+#include "viewer/viewer.h"
+
+namespace unshot {
+namespace {
+
+constexpr float kStill = 4;  // a click moves the mouse by less, at scale 1 [px]
+
+}  // namespace
+
+/// Takes what was clicked or asked for, in a frame that knows the size of the picture.
+void Viewer::pickClicked() {
+  const SceneSplit split = splitScene(scene_width_, state_->rival.has_value());
+  if (!sceneStands() || scene_height_ <= 0 || split.left <= 0) return;
+  if (pick_wanted_) pickAt(scene_.cameraOf(wanted()), split.left, *pick_wanted_);
+  pick_wanted_.reset();
+  const ImGuiIO& io = ImGui::GetIO();
+  const float still = kStill * static_cast<float>(scale_);
+  if (!io.MouseReleased[ImGuiMouseButton_Left] || io.WantCaptureMouse ||
+      io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] > still * still)
+    return;
+  const ImVec2 mouse = io.MouseClickedPos[ImGuiMouseButton_Left];
+  const auto left = static_cast<float>(
+      split.right > 0 && mouse.x >= static_cast<float>(split.right_at) ? split.right_at : 0);
+  const int width = left > 0 ? split.right : split.left;
+  const glm::dvec2 at((mouse.x - left) / static_cast<float>(width),
+                      mouse.y / static_cast<float>(scene_height_));
+  if (at.x >= 0 && at.x <= 1 && at.y >= 0 && at.y <= 1) pickAt(markedCamera(), width, at);
+}
+
+void Viewer::pickAt(const Camera& camera, int width, const glm::dvec2& at) {
+  const double aspect = static_cast<double>(width) / scene_height_;
+  picking_.pick(*state_, camera.eye, sightAt(camera, aspect, at));
+  input();
+}
+
+Camera Viewer::markedCamera() const {
+  // A GPU, or a screenshot, draws the scene in the frame that the marks are for.
+  return renderer().hardware || !captures_.empty() ? scene_.cameraOf(wanted()) : scene_.shownCamera();
+}
+
+void Viewer::pick(const glm::dvec2& at) {
+  if (!state_->snapshot)
+    throw Error(ErrorKind::kUsage, "there is no scene to look at yet", {}, "wait for it first: wait shots 1");
+  pick_wanted_ = at;
+}
+
+void Viewer::unpick() {
+  pick_wanted_.reset();
+  picking_.unpick();
+}
+
+void Viewer::saveProbes(std::filesystem::path path) {
+  const std::string text = picking_.csv(*state_);
+  if (path.empty()) path = newFileName(".csv");
+  writeWholeFile(path, text);
+  notice("written: " + path.string());
+}
+
+void Viewer::copyValues() {
+  ImGui::SetClipboardText(picking_.text(*state_).c_str());
+  notice("copied");
+}
+
+void Viewer::focusPicked() { navigator_.lookAt(picking_.required().pick.position); }
+
+}  // namespace unshot
