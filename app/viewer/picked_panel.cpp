@@ -224,7 +224,8 @@ void pickedSection(Viewer& viewer) {
   const PickedPoint& point = *viewer.picking().picked();
   const Snapshot& snapshot = *viewer.state().snapshot;
   const Surface& surface = snapshot.mesh->surfaces[point.pick.surface];
-  nameLine("Material", snapshot.mesh->materials[surface.material].name, "As the scene's file names it");
+  nameLine("Material", snapshot.mesh->materials[surface.material].name,
+           "As the scene's file names it; what it reflects and emits is changed under \"Materials\"");
   line("Surface", surfaceText(point.pick),
        "Connected polygons of one plane and material, counted from 0, and the side that is seen: front is "
        "where the "

@@ -184,7 +184,7 @@ void Picking::follow(const LaneState& state) {
     pinned_.clear();
   }
   if (mesh_ == state.snapshot->mesh && facts_ == state.facts) return;
-  const bool another_mesh = mesh_ != state.snapshot->mesh;
+  const bool another_mesh = !mesh_ || mesh_->cut != state.snapshot->mesh->cut;
   mesh_ = state.snapshot->mesh;
   facts_ = state.facts;
   if (picked_) place(state);

@@ -34,6 +34,8 @@ void Viewer::pickClicked() {
 void Viewer::pickAt(const Camera& camera, int width, const glm::dvec2& at) {
   const double aspect = static_cast<double>(width) / scene_height_;
   picking_.pick(*state_, camera.eye, sightAt(camera, aspect, at));
+  if (const auto& point = picking_.picked())
+    ui_.material = state_->snapshot->mesh->surfaces[point->pick.surface].material;
   input();
 }
 

@@ -168,6 +168,12 @@ TEST(Materials, TheLightInThePanelIsSwitched) {
   EXPECT_EQ(live->state().stopped_by, "no light");
 }
 
+TEST(Materials, WhatIsPickedIsTheOneToBeChanged) {
+  LiveViewer live(cornellBox("wait converged\npick 0.03,0.5\n"));  // the left wall
+  ASSERT_TRUE(live.until([&] { return live->scriptDone() && live->picking().picked(); }));
+  EXPECT_EQ(live->edits().materials()[live->ui().material].name, "red");
+}
+
 // What is remembered stays comparable, since the mesh is the same.
 TEST(Materials, TheLightBeforeAnEditCanBeComparedWith) {
   LiveViewer live(cornellBox("wait converged\nremember\nreflectance red 0.1,0.2,0.7\nwait converged\n"));
