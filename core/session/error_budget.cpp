@@ -47,10 +47,11 @@ class Timed {
 }  // namespace
 
 ErrorBudget::ErrorBudget(const Mesh& mesh, const Transport& transport, const RadiosityState& state,
-                         std::size_t matrix_bytes, std::uint64_t seed)
+                         std::size_t matrix_bytes, bool occlusion, std::uint64_t seed)
     : mesh_(mesh),
       transport_(transport),
       state_(state),
+      occlusion_(occlusion),
       seed_(seed),
       matrix_(transport.receivers(), transport.patchArea(), matrix_bytes),
       bounds_(matrix_, state) {}
@@ -120,7 +121,7 @@ const SolverBounds& ErrorBudget::sharpen() {
 
 const ErrorEstimates& ErrorBudget::estimate(std::size_t more_places, const std::vector<glm::dvec3>& shown) {
   const Timed timed(seconds_);
-  if (!residuals_) residuals_.emplace(mesh_, transport_.receivers(), seed_);
+  if (!residuals_) residuals_.emplace(mesh_, transport_.receivers(), occlusion_, seed_);
   residuals_->add(more_places, shown);
   estimates_ = residuals_->estimate(state_, matrix_, shown, matrixIsNearlyWhole());
   if (defects_version_ != matrix_.version()) {

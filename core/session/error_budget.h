@@ -15,9 +15,10 @@ namespace unshot {
 
 class ErrorBudget {
  public:
-  /// All outlive the budget. `matrix_bytes`: what the matrix among patches may take.
+  /// All outlive the budget. `matrix_bytes`: what the matrix among patches may take. `occlusion`: whether
+  /// anything can stand between two points.
   ErrorBudget(const Mesh& mesh, const Transport& transport, const RadiosityState& state,
-              std::size_t matrix_bytes, std::uint64_t seed);
+              std::size_t matrix_bytes, bool occlusion, std::uint64_t seed);
 
   /// To be called with each column of the transport, new or better.
   void columnComputed(std::uint32_t q, const Column& column);
@@ -47,6 +48,7 @@ class ErrorBudget {
   const Mesh& mesh_;
   const Transport& transport_;
   const RadiosityState& state_;
+  bool occlusion_;
   std::uint64_t seed_;
   PatchMatrix matrix_;
   ErrorBounds bounds_;

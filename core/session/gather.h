@@ -13,7 +13,8 @@ namespace unshot {
 inline constexpr std::uint32_t kToSky = kNone - 1;
 
 /// One unbiased look from a point. H = sum of weight * (what the patch sends of its emission) over `lights`
-/// + mean of what the elements in `rays` send besides.
+/// + mean of what the elements in `rays` send besides + sum of weight * (all that the element sends) over
+/// `shares` + `sky` of what the sky sends.
 struct Gather {
   struct Light {
     std::uint32_t patch;
@@ -21,6 +22,12 @@ struct Gather {
   };
   std::vector<Light> lights;
   std::vector<std::uint32_t> rays;  ///< elements met; kToSky; kNone where a ray meets an unlit side
+  struct Share {
+    std::uint32_t element;
+    float weight;
+  };
+  std::vector<Share> shares;  ///< of an exact look (exact_look.h), which has neither lights nor rays
+  float sky = 0;              ///< of an exact look
 };
 
 /// Looks around in a scene. Emitters are seen by their exact polygon factor times the share of it that shadow

@@ -171,7 +171,7 @@ class LightQuestion {
 std::shared_ptr<const Mesh> refineForLight(std::shared_ptr<const Mesh> uniform,
                                            const LightRefinement& options, const CancelToken& cancel) {
   const std::shared_ptr<const Mesh> base = refineInGaps(uniform, cancel);
-  LightQuestion question(*base, *uniform, options, cancel);
+  LightQuestion question(*base, options.emitters ? *options.emitters : *uniform, options, cancel);
   for (;;) {
     auto mesh = std::make_shared<Mesh>(refineMesh(
         base, [&](const CellPart& part) { return question(part); }, cancel));

@@ -14,6 +14,9 @@ struct LightRefinement {
   std::uint64_t most_elements = 1'000'000;  ///< about
   bool occlusion = true;                    ///< whether anything can stand between two points
   std::uint64_t seed = 1;
+  /// Where given: the same surfaces in elements as large as can be, which stand for emitters where nothing
+  /// occludes, and there are fewer to look at.
+  std::shared_ptr<const Mesh> emitters;
 };
 
 /// Of a uniform mesh, first where gaps in front of lamps are narrow (session/gap_refinement.h): that is the

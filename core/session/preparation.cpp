@@ -10,6 +10,7 @@
 #include "mesh/build.h"
 #include "mesh/lit.h"
 #include "scene/sky.h"
+#include "session/coarse_mesh.h"
 #include "session/light_refinement.h"
 #include "session/scene_checks.h"
 
@@ -30,6 +31,8 @@ constexpr double kFewestBase = 100, kMostBase = 10'000;
 constexpr double kMostLooks = 6e7;
 // Of scenes with more than so many triangles that light reaches, that needs no mesh to be known.
 constexpr std::size_t kMostTriangles = 50'000;
+// Light straight from emitters, on a coarse mesh: its vertices cost little there.
+constexpr double kFinerLight = 0.1;
 
 bool atVertices(const std::string& method) {
   return findChoice(formFactorMethods(), method, "form-factor method").receivers == ReceiverKind::kVertices;
@@ -53,31 +56,52 @@ std::shared_ptr<const Mesh> uniformMesh(const SurfacesOfScene& surfaces, const M
   return std::make_shared<const Mesh>(meshSurfaces(surfaces, options, cancel));
 }
 
-// The mesh to be refined, of as many elements as the error asks for.
-std::shared_ptr<const Mesh> baseMesh(const SurfacesOfScene& surfaces, const SolveOptions& options,
-                                     MeshOptions mesh_options, const CancelToken& cancel) {
+// As many as the error asks for, of a mesh to be refined.
+double baseElements(const SolveOptions& options) {
   const double wanted = kBaseElements * std::pow(0.01 / options.error, 1 / kOrder);
-  const auto elements = static_cast<std::uint64_t>(
-      std::min(std::clamp(wanted, kFewestBase, kMostBase), static_cast<double>(options.max_elements)));
-  mesh_options.elements = elements;
+  return std::min(std::clamp(wanted, kFewestBase, kMostBase), static_cast<double>(options.max_elements));
+}
+
+// The mesh to be refined.
+std::shared_ptr<const Mesh> baseMesh(const SurfacesOfScene& surfaces, MeshOptions mesh_options,
+                                     double elements, const CancelToken& cancel) {
+  mesh_options.elements = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(elements));
   mesh_options.paired_cells = true;
   Mesh mesh = meshSurfaces(surfaces, mesh_options, cancel);
   std::erase_if(mesh.diagnostics, [](const Diagnostic& d) { return d.code == "element-count"; });
   return std::make_shared<const Mesh>(std::move(mesh));
 }
 
-std::shared_ptr<const Mesh> refined(std::shared_ptr<const Mesh> base, const SolveOptions& options,
-                                    const std::string& method, std::vector<PlanDecision>& plan,
-                                    const CancelToken& cancel) {
+LightRefinement refinementFor(const SolveOptions& options, const std::string& method) {
   LightRefinement refinement;
   refinement.error = options.error;
   refinement.most_elements = options.max_elements;
   refinement.occlusion = method != "closed-form";
   refinement.seed = options.seed;
-  std::shared_ptr<const Mesh> mesh = refineForLight(std::move(base), refinement, cancel);
-  if (!mesh->base) return mesh;
-  plan.push_back(withoutEvenLight(*mesh));
-  return mesh;
+  return refinement;
+}
+
+// A coarse mesh that is good enough, if there is one. `coarsest`: see mayBeCoarse.
+std::shared_ptr<const Mesh> coarseMesh(const SurfacesOfScene& surfaces, const SolveOptions& options,
+                                       const MeshOptions& mesh_options,
+                                       const std::shared_ptr<const Mesh>& coarsest,
+                                       std::vector<PlanDecision>& plan, const CancelToken& cancel) {
+  const double usual = baseElements(options);
+  if (!mayBeCoarse(*coarsest, usual)) return nullptr;
+  LightRefinement refinement = refinementFor(options, "closed-form");
+  refinement.error *= kFinerLight;
+  refinement.emitters = coarsest;
+  const CoarseMesh found = findCoarseMesh(
+      {.error = options.error,
+       .usual = usual,
+       .seed = options.seed,
+       .make =
+           [&](double elements) {
+             return refineForLight(baseMesh(surfaces, mesh_options, elements, cancel), refinement, cancel);
+           }},
+      cancel);
+  if (found.mesh) plan.push_back(withoutFineness(*found.mesh, found.error.high, usual));
+  return found.mesh;
 }
 
 }  // namespace
@@ -97,29 +121,45 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
     surfaces = findSurfaces(scene, mesh_options, cancel);
     out.plan_seconds = surfaces->plan_seconds;
   }
-  const std::size_t triangles = litTriangles(surfaces ? surfaces->mesh : *out.mesh).size();
-  const bool soonest = options.soonest && triangles <= kMostTriangles && leaves(plan_keys::kHemicubes);
-  const auto meshed = [&](bool to_refine) {
-    return to_refine ? baseMesh(*surfaces, options, mesh_options, cancel)
+  const Mesh& known = surfaces ? surfaces->mesh : *out.mesh;
+  const bool open = nothingCanOcclude(known);
+  if (automatic && leaves(plan_keys::kOcclusion) && open) out.form_factors = "closed-form";
+  const bool soonest =
+      options.soonest && litTriangles(known).size() <= kMostTriangles && leaves(plan_keys::kHemicubes);
+  const bool undecided = out.form_factors == "auto";
+  bool to_refine = may_follow && (undecided ? soonest : atVertices(out.form_factors));
+  std::vector<PlanDecision> decisions;
+  std::shared_ptr<const Mesh> coarsest;
+  if (to_refine && open && out.form_factors == "closed-form") {
+    coarsest = baseMesh(*surfaces, mesh_options, 1, cancel);
+    // A live solve's materials may be edited, and its mesh stays.
+    if (options.soonest && leaves(plan_keys::kFineness) && out.sky == glm::dvec3(0.0))
+      out.mesh = coarseMesh(*surfaces, options, mesh_options, coarsest, decisions, cancel);
+  }
+  const bool coarse = coarsest && out.mesh;
+  const auto meshed = [&](bool refinable) {
+    return refinable ? baseMesh(*surfaces, mesh_options, baseElements(options), cancel)
                      : uniformMesh(*surfaces, mesh_options, cancel);
   };
-  bool to_refine = may_follow && (automatic ? soonest : atVertices(out.form_factors));
   if (!out.mesh) out.mesh = meshed(to_refine);
-  bool by_rays = false;
-  if (automatic) {
+  if (undecided) {
     const double looks =
         static_cast<double>(out.mesh->vertices.size()) * static_cast<double>(out.mesh->patch_count);
-    const bool closed_form = leaves(plan_keys::kOcclusion) && nothingCanOcclude(*out.mesh);
-    by_rays = !closed_form && soonest && looks <= kMostLooks;
-    out.form_factors = closed_form ? "closed-form" : by_rays ? "rays" : "hemicube";
-    const bool follows = may_follow && atVertices(out.form_factors);
+    const bool by_rays = soonest && looks <= kMostLooks;
+    out.form_factors = by_rays ? "rays" : "hemicube";
+    const bool follows = may_follow && by_rays;
     if (follows != to_refine) out.mesh = meshed(follows);
     to_refine = follows;
+    if (by_rays) decisions.push_back(withoutHemicubes(*out.mesh));
   }
   surfaces.reset();
-  std::vector<PlanDecision> decisions;
-  if (by_rays) decisions.push_back(withoutHemicubes(*out.mesh));
-  if (to_refine) out.mesh = refined(out.mesh, options, out.form_factors, decisions, cancel);
+  if (to_refine && !coarse) {
+    LightRefinement refinement = refinementFor(options, out.form_factors);
+    refinement.emitters = coarsest;
+    out.mesh = refineForLight(std::move(out.mesh), refinement, cancel);
+  }
+  if (to_refine && out.mesh->base) decisions.push_back(withoutEvenLight(*out.mesh));
+  out.whole_error = out.mesh->base || coarse;
   const double plan_began = wallSeconds();
   out.plan = makePlan(scene, *out.mesh, out.form_factors, options.do_anyway);
   out.plan.insert(out.plan.end(), decisions.begin(), decisions.end());

@@ -32,8 +32,14 @@ glm::dvec3 barycentric(double u, double v) {
 
 }  // namespace
 
-ResidualPlaces::ResidualPlaces(const Mesh& mesh, const Receivers& receivers, std::uint64_t seed)
-    : mesh_(mesh), receivers_(receivers), seed_(mixBits(seed ^ 0x7265736964756cull)), gatherer_(mesh) {
+ResidualPlaces::ResidualPlaces(const Mesh& mesh, const Receivers& receivers, bool occlusion,
+                               std::uint64_t seed)
+    : mesh_(mesh), receivers_(receivers), seed_(mixBits(seed ^ 0x7265736964756cull)) {
+  if (!occlusion && looksExactlySooner(mesh)) {
+    exact_.emplace(mesh);
+  } else {
+    gatherer_.emplace(mesh);
+  }
   if (receivers.kind == ReceiverKind::kElements) element_points_.emplace(mesh);
   double sum = 0;
   for (std::uint32_t t = 0; t < mesh.triangle_element.size(); ++t) {
@@ -109,8 +115,13 @@ void ResidualPlaces::add(std::size_t places, const std::vector<glm::dvec3>& show
   for (std::size_t k = 0; k < places; ++k) {
     const std::uint64_t number = points_.size();
     addPoint(number);
-    addReceiver(number);
+    if (!exact_) addReceiver(number);
   }
+}
+
+Gather ResidualPlaces::look(const glm::dvec3& position, const glm::dvec3& normal,
+                            std::uint64_t stream) const {
+  return exact_ ? exact_->at(position, normal) : gatherer_->look(position, normal, stream);
 }
 
 void ResidualPlaces::addPoint(std::uint64_t number) {
@@ -127,8 +138,8 @@ void ResidualPlaces::addPoint(std::uint64_t number) {
     position += place.weights[k] *
                 glm::dvec3(mesh_.vertices[mesh_.triangle_vertices[3 * place.triangle + k]].position);
   const glm::dvec3& normal = mesh_.sides[mesh_.element_side[element]].normal;
-  for (std::uint64_t k = 0; k < 2; ++k)
-    place.looks[k] = gatherer_.look(position, normal, mixBits(bits + 2 + k));
+  place.looks[0] = look(position, normal, mixBits(bits + 2));
+  place.looks[1] = exact_ ? place.looks[0] : look(position, normal, mixBits(bits + 3));
   points_.push_back(std::move(place));
 }
 
@@ -146,7 +157,7 @@ void ResidualPlaces::addReceiver(std::uint64_t number) {
       double left = unitInterval(mixBits(bits + 20 + k));
       std::size_t chosen = 0;
       while (chosen + 1 < views.size() && left >= views[chosen].weight) left -= views[chosen++].weight;
-      place.looks[k] = gatherer_.look(views[chosen].position, views[chosen].normal, mixBits(bits + 2 + k));
+      place.looks[k] = look(views[chosen].position, views[chosen].normal, mixBits(bits + 2 + k));
       continue;
     }
     // Each look from a place of its own in the element: its H is a mean.
@@ -154,8 +165,7 @@ void ResidualPlaces::addReceiver(std::uint64_t number) {
     std::uint64_t state = mixBits(bits + 10 * k);
     const glm::dvec3 position =
         element_points_->at(place.receiver, [&] { return unitInterval(state = mixBits(state)); });
-    place.looks[k] =
-        gatherer_.look(position, mesh_.sides[mesh_.element_side[place.receiver]].normal, mixBits(state));
+    place.looks[k] = look(position, mesh_.sides[mesh_.element_side[place.receiver]].normal, mixBits(state));
   }
   at_receivers_.push_back(std::move(place));
 }

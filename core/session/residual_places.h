@@ -8,6 +8,7 @@
 
 #include "formfactor/receivers.h"
 #include "mesh/element_points.h"
+#include "session/exact_look.h"
 #include "session/gather.h"
 
 namespace unshot {
@@ -24,14 +25,17 @@ struct ResidualPlace {
 
 class ResidualPlaces {
  public:
-  /// All outlive the places.
-  ResidualPlaces(const Mesh& mesh, const Receivers& receivers, std::uint64_t seed);
+  /// All outlive the places. `occlusion`: whether anything can stand between two points.
+  ResidualPlaces(const Mesh& mesh, const Receivers& receivers, bool occlusion, std::uint64_t seed);
 
-  /// Takes `places` more points and as many receivers; a place costs some 700 rays. Half of them are spread
-  /// evenly over the area, half by the square of the light that is reflected there, of which `shown` is H as
-  /// it is shown (one per receiver [W/m^2]): a few bright places can hold most of an error. Surfaces that
-  /// emit have places too, for what goes on from there.
+  /// Takes `places` more points and as many receivers; a place costs some 700 rays, or, where nothing can
+  /// occlude and elements are few, a factor for each of them, and no receivers are taken then. Half of the
+  /// places are spread evenly over the area, half by the square of the light that is reflected there, of
+  /// which `shown` is H as it is shown (one per receiver [W/m^2]): a few bright places can hold most of an
+  /// error. Surfaces that emit have places too, for what goes on from there.
   void add(std::size_t places, const std::vector<glm::dvec3>& shown);
+  /// Whether looks are exact (exact_look.h): both of a place are the same.
+  bool exact() const { return exact_.has_value(); }
   /// Those that follow are chosen by the light as it is then.
   void forget();
   const std::vector<ResidualPlace>& points() const { return points_; }
@@ -47,12 +51,14 @@ class ResidualPlaces {
   void findLight(const std::vector<glm::dvec3>& shown);
   void addPoint(std::uint64_t number);
   void addReceiver(std::uint64_t number);
+  Gather look(const glm::dvec3& position, const glm::dvec3& normal, std::uint64_t stream) const;
   double areaOf(std::uint32_t receiver) const;
 
   const Mesh& mesh_;
   const Receivers& receivers_;
   std::uint64_t seed_;
-  Gatherer gatherer_;
+  std::optional<Gatherer> gatherer_;  // one of the two
+  std::optional<ExactLook> exact_;
   // Running sums over triangles and receivers: of the area where places may lie, and of the square of the
   // light there.
   std::vector<double> triangle_area_sum_, receiver_area_sum_;

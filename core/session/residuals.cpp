@@ -68,7 +68,10 @@ glm::dvec3 meets(const Gather& look, const std::vector<std::uint32_t>& element_p
   glm::dvec3 sum(0.0);
   for (const std::uint32_t e : look.rays)
     if (e != kNone && e != kToSky) sum += of_patch[element_patch[e]];
-  return sum / static_cast<double>(look.rays.size());
+  if (!look.rays.empty()) sum /= static_cast<double>(look.rays.size());
+  for (const Gather::Share& s : look.shares)
+    sum += static_cast<double>(s.weight) * of_patch[element_patch[s.element]];
+  return sum;
 }
 
 // Sums over places of weights, of values and of the light that is reflected there.
@@ -169,8 +172,8 @@ std::optional<Ratio> squaredError(const std::vector<ResidualPlace>& places, cons
 
 }  // namespace
 
-Residuals::Residuals(const Mesh& mesh, const Receivers& receivers, std::uint64_t seed)
-    : mesh_(mesh), receivers_(receivers), places_(mesh, receivers, seed) {
+Residuals::Residuals(const Mesh& mesh, const Receivers& receivers, bool occlusion, std::uint64_t seed)
+    : mesh_(mesh), receivers_(receivers), places_(mesh, receivers, occlusion, seed) {
   std::vector<glm::dvec3> emission, reflectance;
   for (const Side& side : mesh.sides) {
     emission.push_back(side.emission);
@@ -181,8 +184,8 @@ Residuals::Residuals(const Mesh& mesh, const Receivers& receivers, std::uint64_t
 
 bool Residuals::counts(std::uint32_t patch) const { return counts_[mesh_.patch_side[patch]] != 0; }
 
-// H of a gather: what lights send of their emission, and what elements and the sky send besides.
-glm::dvec3 Residuals::irradianceOf(const Gather& gather, const Sent& sent) {
+// H of a gather.
+glm::dvec3 Residuals::irradianceOf(const Gather& gather, const Sent& sent) const {
   glm::dvec3 sum(0.0);
   for (const std::uint32_t e : gather.rays) {
     if (e == kToSky) {
@@ -191,10 +194,13 @@ glm::dvec3 Residuals::irradianceOf(const Gather& gather, const Sent& sent) {
       sum += sent.light[e];
     }
   }
-  sum /= static_cast<double>(gather.rays.size());
+  if (!gather.rays.empty()) sum /= static_cast<double>(gather.rays.size());
   for (const Gather::Light& light : gather.lights)
     sum += static_cast<double>(light.weight) * sent.emission[light.patch];
-  return sum;
+  for (const Gather::Share& s : gather.shares)
+    sum += static_cast<double>(s.weight) *
+           (sent.light[s.element] + sent.emission[mesh_.element_patch[s.element]]);
+  return sum + static_cast<double>(gather.sky) * sent.sky;
 }
 
 // Emission and sky as they are sent: all of them, or what has been shot.
@@ -261,14 +267,16 @@ ErrorEstimates Residuals::estimate(const RadiosityState& state, const PatchMatri
                                    const std::vector<glm::dvec3>& shown, bool with_total) const {
   ErrorEstimates out;
   const std::vector<ResidualPlace>&points = places_.points(), &receivers = places_.receivers();
-  if (points.empty() || receivers.empty()) return out;
+  if (points.empty() || (receivers.empty() && !places_.exact())) return out;
   const auto squared = [&](const std::vector<ResidualPlace>& places, const std::vector<Residual>& residuals) {
     return squaredError(places, residuals, mesh_, state, matrix);
   };
   const std::optional<Ratio> both = squared(points, pointResiduals(state, shown, false));
-  const std::optional<Ratio> factors = squared(receivers, receiverResiduals(state));
+  // Exact looks are by the factors themselves.
+  const std::optional<Ratio> factors =
+      places_.exact() ? Ratio{} : squared(receivers, receiverResiduals(state));
   out.both = estimateOf(both, points.size());
-  out.form_factor = estimateOf(factors, receivers.size());
+  out.form_factor = estimateOf(factors, places_.exact() ? points.size() : receivers.size());
   if (both && factors)
     out.discretisation = estimateOf(Ratio{std::max(both->value, 0.0) - std::max(factors->value, 0.0),
                                           std::hypot(both->error, factors->error)},

@@ -42,8 +42,8 @@ struct ErrorEstimates {
 
 class Residuals {
  public:
-  /// All outlive the residuals.
-  Residuals(const Mesh& mesh, const Receivers& receivers, std::uint64_t seed);
+  /// All outlive the residuals. `occlusion`: whether anything can stand between two points.
+  Residuals(const Mesh& mesh, const Receivers& receivers, bool occlusion, std::uint64_t seed);
 
   /// As ResidualPlaces::add and ::forget.
   void add(std::size_t places, const std::vector<glm::dvec3>& shown) { places_.add(places, shown); }
@@ -76,7 +76,7 @@ class Residuals {
   std::vector<Residual> receiverResiduals(const RadiosityState& state) const;
   Residual residualOf(const ResidualPlace& place, const glm::dvec3& rho, const Sent& sent,
                       const glm::dvec3& shown) const;
-  static glm::dvec3 irradianceOf(const Gather& gather, const Sent& sent);
+  glm::dvec3 irradianceOf(const Gather& gather, const Sent& sent) const;
   void setSources(const RadiosityState& state, bool with_unshot, Sent& sent) const;
   bool counts(std::uint32_t patch) const;
 

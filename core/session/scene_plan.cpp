@@ -30,6 +30,9 @@ constexpr PlanRow kRows[] = {
     {{plan_keys::kEvenLight, "Fine elements where light is even",
       "elements that interpolation between coarser ones would fill with the same light"},
      "within the error asked for, by estimate"},
+    {{plan_keys::kFineness, "Elements that the error does not ask for",
+      "a mesh finer than a coarse one that was tried and is good enough"},
+     "within the error asked for, by estimate"},
     {{plan_keys::kBlackPatches, "Form factors of black patches", "columns along which nothing is sent"},
      kExact}};
 
@@ -139,6 +142,14 @@ PlanDecision withoutHemicubes(const Mesh& mesh) {
                   "shadow rays see as much from " + std::to_string(mesh.vertices.size()) +
                       " vertices sooner and more exactly",
                   "all pictures");
+}
+
+PlanDecision withoutFineness(const Mesh& mesh, double error, double usual) {
+  return decision(plan_keys::kFineness, "elements finer than the light needs",
+                  "a mesh of " + std::to_string(mesh.element_count) +
+                      " was solved at once, and at points all over it the light is within " +
+                      figureText(100 * error) + " % of what arrives there",
+                  std::to_string(mesh.element_count) + " elements instead of some " + figureText(usual));
 }
 
 PlanDecision withoutEvenLight(const Mesh& mesh) {

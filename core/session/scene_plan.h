@@ -29,6 +29,7 @@ inline constexpr std::string_view kTriangles = "triangles";
 inline constexpr std::string_view kOcclusion = "occlusion";
 inline constexpr std::string_view kHemicubes = "hemicubes";
 inline constexpr std::string_view kEvenLight = "even-light";
+inline constexpr std::string_view kFineness = "fineness";
 inline constexpr std::string_view kBlackPatches = "black-patches";
 }  // namespace plan_keys
 
@@ -58,6 +59,8 @@ std::vector<PlanDecision> makePlan(const Scene& scene, const Mesh& mesh, std::st
                                    const DoAnyway& done);
 /// That rays stand in for hemicubes.
 PlanDecision withoutHemicubes(const Mesh& mesh);
+/// That a coarse mesh does, of which the error is estimated to be this in place of that of `usual` elements.
+PlanDecision withoutFineness(const Mesh& mesh, double error, double usual);
 /// That the mesh follows the light.
 PlanDecision withoutEvenLight(const Mesh& mesh);
 

@@ -72,6 +72,7 @@ void Solve::Impl::setUp(const std::function<gl::Context&()>& gl, const CancelTok
   seconds.mesh = prepared.mesh_seconds;
   seconds.plan = prepared.plan_seconds;
   sky = prepared.sky;
+  whole_error = prepared.whole_error;
 
   cancel.check();
   makeTransport(gl, cancel);
@@ -86,6 +87,7 @@ void Solve::Impl::setUp(const std::function<gl::Context&()>& gl, const CancelTok
   cancel.check();
   ambient = std::make_unique<AmbientTerm>(mesh->patch_count, mesh->patch_air);
   budget = std::make_unique<ErrorBudget>(*mesh, *transport, *state, options.kept_bytes / options.sharers / 4,
+                                         form_factors_key != "closed-form" || !nothingCanOcclude(*mesh),
                                          options.seed);
   transport->watchColumns([this](std::uint32_t q, const Column& column) {
     // What the sky shines on need not see each other.

@@ -140,7 +140,7 @@ class Solve {
   void rest();
 
   /// What the bound of the solver's error (Measures::solverBound) is held against: SolveOptions::error or,
-  /// where the mesh follows the light and the error asked for is that of the whole, the solver's share of it.
+  /// where the mesh was made for it and the error is that of the whole, the solver's share of it.
   double solverTarget() const;
   SolveState state() const;
   /// Ends the solve as interrupted; what was reached stays.

@@ -19,7 +19,7 @@ constexpr double kFarAbove = 3;
 
 }  // namespace
 
-double Solve::Impl::target() const { return mesh->base ? kSolverShare * options.error : options.error; }
+double Solve::Impl::target() const { return whole_error ? kSolverShare * options.error : options.error; }
 
 void Solve::Impl::stop(SolveState how, std::string why) {
   progress_state = how;
@@ -156,7 +156,7 @@ void Solve::Impl::noteMissingRoom() {
 // Once, where the mesh was to be as fine as the error asks for and is far from it.
 void Solve::Impl::noteMissedError() {
   const ErrorEstimate& estimate = budget->estimates().total;
-  if (error_noted || !mesh->base || progress_state != SolveState::kConverged ||
+  if (error_noted || !whole_error || progress_state != SolveState::kConverged ||
       estimate.low <= options.error || estimate.value < kFarAbove * options.error)
     return;
   error_noted = true;

@@ -30,6 +30,8 @@ struct Solve::Impl {
   SolveOptions options;
   Scene scene;
   std::shared_ptr<const Mesh> mesh;
+  // The error asked for is that of the whole. Of a given mesh it itself tells alone.
+  bool whole_error = false;
   glm::dvec3 sky{0.0};  // its radiosity [W/m^2]: the source behind all patches; 0: there is none
   std::string mode_key, form_factors_key;
   std::vector<PlanDecision> plan;

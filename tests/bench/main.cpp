@@ -14,6 +14,7 @@
 #include "bench/plan_table.h"
 #include "bench/reference_table.h"
 #include "bench/scene_table.h"
+#include "support/scenes.h"
 
 namespace {
 
@@ -47,6 +48,8 @@ void printPlans(bool quick, double seconds) {
   std::vector<std::filesystem::path> scenes;
   for (const char* name : {"furnace", "two_patches", "cornell_box", "two_rooms"})
     scenes.push_back(std::filesystem::path(UNSHOT_SOURCE_DIR "/assets") / (std::string(name) + ".obj"));
+  const unshot::testing_support::TempFolder folder;
+  scenes.insert(scenes.begin() + 2, unshot::testing_support::writeRoom(folder));
   if (quick) scenes.resize(1);
   unshot::bench::printPlanTable(scenes, quick ? seconds : 6 * seconds);
 }

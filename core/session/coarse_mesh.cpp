@@ -1,0 +1,87 @@
+#include "session/coarse_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "formfactor/methods.h"
+#include "formfactor/transport.h"
+#include "solver/patch_solve.h"
+#include "solver/state.h"
+
+namespace unshot {
+namespace {
+
+// The first trial has this share of the usual elements, the last at most that.
+constexpr double kFirst = 1.0 / 64, kLast = 1.0 / 4;
+// From one trial to the next, times as many at least and at most.
+constexpr double kLeastStep = 2, kMostStep = 4;
+// The error falls with at least this power of their number: walls that meet hold it up.
+constexpr double kOrder = 0.6;
+// The upper end of an estimate's interval over the error asked for: it allows for noise and occluders (1.8),
+// and in rooms without either errors were up to 1.4 times the estimate.
+constexpr double kTrusted = 1.5;
+// Where more than so many times the last trial's elements seem to be needed, no more are made.
+constexpr double kHopeless = 1.1;
+// Of an emitter, at least, over the edge of an element of the first trial.
+constexpr double kWidth = 0.5;
+// That end over the estimate itself, about.
+constexpr double kSpread = 2.4;
+constexpr std::size_t kPlaces = 64;
+// Of the solution of the patches, which is to add nothing.
+constexpr double kTolerance = 1e-5;
+constexpr int kMostProducts = 200;
+constexpr std::size_t kAnyMemory = std::size_t{1} << 30;  // [bytes]
+
+}  // namespace
+
+bool mayBeCoarse(const Mesh& coarsest, double usual) {
+  if (coarsest.element_count > kFirst * usual + 2 * static_cast<double>(coarsest.sides.size())) return false;
+  const double size = std::sqrt(coarsest.lit_area / (kFirst * usual));
+  return std::all_of(coarsest.sides.begin(), coarsest.sides.end(), [&](const Side& side) {
+    const Surface& surface = coarsest.surfaces[side.surface];
+    return side.emission == glm::dvec3(0.0) ||
+           surface.area >= kWidth * size * std::max(surface.extent.x, surface.extent.y);
+  });
+}
+
+CoarseMesh findCoarseMesh(const CoarseTrial& trial, const CancelToken& cancel) {
+  const double last = kLast * trial.usual;
+  for (double elements = kFirst * trial.usual; elements <= last;) {
+    std::shared_ptr<const Mesh> mesh = trial.make(elements);
+    const ErrorEstimate found = tryMesh(*mesh, trial.seed, cancel);
+    if (found.places == 0) break;
+    if (found.high <= kTrusted * trial.error) return {std::move(mesh), found};
+    const double needed = elements * std::pow(kSpread * found.value / (kTrusted * trial.error), 1 / kOrder);
+    if (needed > kHopeless * last) break;
+    elements = std::clamp(needed, kLeastStep * elements, kMostStep * elements);
+  }
+  return {};
+}
+
+ErrorEstimate tryMesh(const Mesh& mesh, std::uint64_t seed, const CancelToken& cancel) {
+  FormFactorSetup setup;
+  setup.mesh = &mesh;
+  setup.cancel = cancel;
+  setup.receivers = std::make_shared<const Receivers>(makeReceivers(mesh, ReceiverKind::kVertices, cancel));
+  Transport transport(makeClosedForm(setup), *setup.receivers, mesh.patch_area, kAnyMemory);
+  std::vector<glm::dvec3> emission, reflectance;
+  for (const std::uint32_t side : mesh.patch_side) {
+    emission.push_back(mesh.sides[side].emission);
+    reflectance.push_back(mesh.sides[side].reflectance);
+  }
+  RadiosityState state(transport, emission, reflectance);
+  PatchMatrix matrix(transport.receivers(), transport.patchArea(), kAnyMemory);
+  for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
+    cancel.check();
+    matrix.set(q, transport.column(q));
+  }
+  const std::vector<glm::dvec3> shot = solvePatches(matrix, reflectance, emission, kTolerance, kMostProducts);
+  for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
+    if (shot[q] != glm::dvec3(0.0)) state.shoot(q, shot[q], transport.column(q));
+  }
+  Residuals residuals(mesh, transport.receivers(), false, seed);
+  residuals.add(kPlaces, state.irradiance());
+  return residuals.estimate(state, matrix, state.irradiance(), false).both;
+}
+
+}  // namespace unshot

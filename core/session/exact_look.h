@@ -1,0 +1,34 @@
+// Irradiance at a point of a scene in which nothing can occlude, from the exact Lambert factor of every
+// element: what the rays of a Gatherer would find, without their noise.
+#pragma once
+
+#include <vector>
+
+#include "formfactor/polygon_factor.h"
+#include "mesh/mesh.h"
+#include "session/gather.h"
+
+namespace unshot {
+
+/// Whether such looks take no longer than those by rays.
+bool looksExactlySooner(const Mesh& mesh);
+
+class ExactLook {
+ public:
+  /// The mesh must outlive it. Nothing in it may stand between two points (nothingCanOcclude).
+  explicit ExactLook(const Mesh& mesh);
+
+  /// From `position` on a surface, on the side that `normal` points away from.
+  Gather at(const glm::dvec3& position, const glm::dvec3& normal) const;
+
+ private:
+  struct Tile {
+    FactorPolygon polygon;
+    glm::dvec3 normal;
+    std::uint32_t element;
+  };
+  double margin_;  // [m]
+  std::vector<Tile> tiles_;
+};
+
+}  // namespace unshot

@@ -1,0 +1,155 @@
+// Small scenes: a coarse mesh where light is even, and what must not be taken for that.
+#include <gtest/gtest.h>
+
+#include "scene/obj_reader.h"
+#include "session/scene_plan.h"
+#include "support/dice.h"
+#include "support/plan_pairs.h"
+#include "support/sanitized.h"
+#include "support/test_scenes.h"
+
+namespace unshot {
+namespace {
+
+using namespace testing_support;
+
+/// A box whose ceiling is a lamp, all of it or a wide strip, with walls of any colours.
+Scene litBox(std::uint64_t seed) {
+  Dice dice(seed);
+  SceneBuilder b;
+  const glm::dvec3 size(dice.between(1, 5), dice.between(1, 5), dice.between(1, 5));
+  const double mean = dice.between(0.1, 0.8);
+  const auto colour = [&] {
+    return mean * glm::dvec3(dice.between(0.7, 1), dice.between(0.7, 1), dice.between(0.7, 1));
+  };
+  BoxMaterials materials;
+  for (std::uint32_t& m : materials) m = b.material("wall", colour());
+  const double share = dice.uniform() < 0.5 ? 1.0 : dice.between(0.6, 0.9);
+  const auto lamp = b.material("lamp", glm::dvec3(0.2), glm::dvec3(1, 2, 4));
+  const std::uint32_t ceiling = materials[3];
+  materials[3] = kNone;
+  addBox(b, materials, {0, 0, 0}, size, true);
+  b.quad(lamp, {0, size.y, 0}, {share * size.x, 0, 0}, {0, 0, size.z});
+  if (share < 1) b.quad(ceiling, {share * size.x, size.y, 0}, {(1 - share) * size.x, 0, 0}, {0, 0, size.z});
+  return b.finish();
+}
+
+// With and without: both are within the error that was asked for, of the same scene and of one another.
+TEST(SmallScene, TakesCoarseMeshesWithinTheErrorOnly) {
+  std::size_t taken = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    const double error = seed % 2 == 0 ? 0.03 : 0.08;
+    SolveOptions options = soonest(error);
+    const auto without = solved(litBox(seed), options);
+    EXPECT_EQ(without->formFactorsKey(), "closed-form");
+    if (keysOf(*without).count("fineness") == 0) continue;
+    ++taken;
+    options.do_anyway = {std::string(plan_keys::kFineness)};
+    options.error = error / 4;  // near to the truth
+    const auto with = solved(litBox(seed), options);
+    EXPECT_GT(with->mesh().element_count, without->mesh().element_count);
+    const double apart = difference(*without, *with);
+    measured("apart over the error asked for", apart / error);
+    EXPECT_LT(apart, error) << seed;
+  }
+  EXPECT_GE(taken, 4u);
+}
+
+TEST(SmallScene, IsNotFooledByAChipOfAnOccluder) {
+  const auto make = [](bool chip) {
+    SceneBuilder b;
+    addBox(b, allOf(b.material("glow", glm::dvec3(0.5), glm::dvec3(0.5))), {0, 0, 0}, glm::dvec3(2), true);
+    if (chip) b.quad(b.material("chip", glm::dvec3(0.0)), {1, 0.5, 1}, {0.1, 0, 0}, {0, 0, 0.1});
+    return b.finish();
+  };
+  SolveOptions options = soonest(0.02);
+  options.emit_front_only = true;
+  const auto even = solved(make(false), options), chipped = solved(make(true), options);
+  EXPECT_EQ(keysOf(*even).count("fineness"), 1u);
+  EXPECT_EQ(keysOf(*chipped).count("fineness"), 0u);
+  EXPECT_EQ(keysOf(*chipped).count("occlusion"), 0u);
+  // It absorbs what arrives on both of its sides: of 24 m^2 of walls that absorb half, 0.02 m^2.
+  const auto mean = [](const Solve& solve) {
+    double sum = 0, area = 0;
+    const Snapshot snapshot = solve.snapshot();
+    for (std::uint32_t e = 0; e < solve.mesh().element_count; ++e) {
+      if (!solve.mesh().emits(solve.mesh().element_patch[e])) continue;
+      sum += solve.mesh().element_area[e] * static_cast<double>(snapshot.element_irradiance[e].x);
+      area += solve.mesh().element_area[e];
+    }
+    return sum / area;
+  };
+  EXPECT_NEAR(mean(*even), 1, options.error);
+  EXPECT_NEAR(mean(*chipped), 12 / (12 + 0.02), options.error);
+}
+
+// B = E / (1 - rho) in each channel by itself. What the solver leaves of it is the same in all, nearly.
+TEST(SmallScene, DoesNotTakeNearlyGreyForGrey) {
+  SceneBuilder b;
+  constexpr double kApart = 1e-6;
+  const glm::dvec3 rho(0.5, 0.5 + kApart, 0.5 - kApart);
+  addBox(b, allOf(b.material("glow", rho, glm::dvec3(0.5))), {0, 0, 0}, glm::dvec3(1), true);
+  SolveOptions options = soonest(0.01);
+  options.emit_front_only = true;
+  const auto solve = solved(b.finish(), options);
+  for (const glm::dvec3& radiosity : solve->patchRadiosity()) {
+    EXPECT_NEAR(radiosity.y / radiosity.x - 1, 2 * kApart, 0.1 * kApart);
+    EXPECT_NEAR(radiosity.z / radiosity.x - 1, -2 * kApart, 0.1 * kApart);
+  }
+}
+
+// A wall that is black in two channels sends in the third; a lamp of one channel lights that alone.
+TEST(SmallScene, KeepsTheChannelsOfAWallThatIsBlackInTwo) {
+  const auto make = [] {
+    std::array<Material, 6> materials;
+    materials.fill({"grey", glm::dvec3(0.5), glm::dvec3(0.0)});
+    materials[1].emission = glm::dvec3(1, 2, 0);
+    materials[0].reflectance = glm::dvec3(0.9, 0, 0);
+    return cubeScene(materials);
+  };
+  SolveOptions options = soonest(0.02);
+  options.emit_front_only = true;
+  const auto without = solved(make(), options);
+  EXPECT_EQ(keysOf(*without).count("black-patches"), 0u);
+  options.do_anyway = doAll();
+  options.form_factors = "closed-form";
+  options.error = 0.005;
+  const auto with = solved(make(), options);
+  EXPECT_LT(difference(*without, *with), 0.02);
+  const auto radiosity = sideRadiosities(without->snapshot());
+  for (std::size_t s = 0; s < radiosity.size(); ++s) {
+    EXPECT_EQ(radiosity[s].z, 0);
+    if (without->mesh().sides[s].reflectance.y == 0) {
+      EXPECT_EQ(radiosity[s].y, 0);
+      EXPECT_GT(radiosity[s].x, 0.1);
+    }
+  }
+}
+
+// What is left out of a small scene whose light is even or smooth. Twenty times is asked for; both runs are
+// in one process and on one clock of CPU, and the furnace takes a two-hundredth here, the patches a fortieth.
+TEST(SmallScene, MakesShortWorkOfSmallScenes) {
+  if (kSanitized) GTEST_SKIP() << "everything takes far longer";
+  for (const std::string name : {"furnace", "two_patches"}) {
+    const auto make = [&] { return readObj(UNSHOT_SOURCE_DIR "/assets/" + name + ".obj"); };
+    SolveOptions options = soonest(0.01);
+    options.emit_front_only = true;
+    const auto seconds = [&](const SolveOptions& how) {
+      const auto solve = solved(make(), how);
+      solve->estimate(64);
+      return std::pair(solve->seconds().cpu_solve, solve->drawn());
+    };
+    seconds(options);  // with what is loaded once
+    const auto [lean, lean_drawn] = seconds(options);
+    options.do_anyway = doAll();
+    const auto [whole, whole_drawn] = seconds(options);
+    measured(name + " CPU ms", 1e3 * lean);
+    measured(name + " with everything", 1e3 * whole);
+    EXPECT_EQ(lean_drawn, 0u);
+    EXPECT_GT(whole_drawn, 0u);
+    EXPECT_LT(20 * lean, whole) << name;
+  }
+}
+
+}  // namespace
+}  // namespace unshot
