@@ -162,6 +162,23 @@ TEST(Picking, AClickPicksADragDoesNotAndEscapeUnpicks) {
   EXPECT_FALSE(live->picking().picked()) << "nothing is there";
 }
 
+TEST(Picking, AClickRightAfterAMoveLeavesTheCameraAlone) {
+  LiveViewer live(cornellBox("wait converged\nhelp off\n"));
+  ASSERT_TRUE(live.until([&] { return live->scriptDone() && live->nextFrame(0) > 1e30; }));
+  const Camera before = live->camera();
+  ImGuiIO& io = ImGui::GetIO();
+  io.MousePos = {100, 100};
+  live.draw();
+  // Moved, pressed and let go before the next frame: ImGui makes two frames of it.
+  io.MousePos = {350, 0.93f * 700};
+  io.MouseDown[0] = true;
+  live.draw();
+  io.MouseDown[0] = false;
+  live.draw();
+  EXPECT_EQ(live->camera().eye, before.eye);
+  expectFloor(live);
+}
+
 TEST(Picking, LooksAtThePointAndOrbitsAroundIt) {
   LiveViewer live(cornellBox("wait converged\n" + kFloor + "focus-picked\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
