@@ -1,6 +1,8 @@
 // The frames of the viewer: when there is something to draw, how much of it at a time, and drawing it.
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -60,7 +62,9 @@ bool Viewer::mayBeSharpened(double now) const {
 void Viewer::navigate(double seconds) {
   const ImGuiIO& io = ImGui::GetIO();
   const Camera before = navigator_.camera();
-  if (!io.WantCaptureMouse && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
+  // What the mouse moved in the frame of a click, it moved before.
+  const bool clicked = std::any_of(std::begin(io.MouseClicked), std::end(io.MouseClicked), std::identity());
+  if (!io.WantCaptureMouse && !clicked && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
     const glm::dvec2 motion(io.MouseDelta.x, io.MouseDelta.y);
     if (io.MouseDown[ImGuiMouseButton_Middle] || (io.MouseDown[ImGuiMouseButton_Left] && io.KeyShift)) {
       navigator_.pan(motion, scene_height_);

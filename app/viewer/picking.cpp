@@ -183,13 +183,16 @@ void Picking::follow(const LaneState& state) {
     picked_.reset();
     pinned_.clear();
   }
-  if (mesh_ == state.snapshot->mesh && facts_ == state.facts) return;
-  const bool another_mesh = !mesh_ || mesh_->cut != state.snapshot->mesh->cut;
-  mesh_ = state.snapshot->mesh;
-  facts_ = state.facts;
-  if (picked_) place(state);
+  const Mesh& mesh = *state.snapshot->mesh;
+  const bool another_cut = std::exchange(cut_, mesh.cut) != mesh.cut;
+  const bool other_facts = std::exchange(facts_, state.facts) != state.facts;
+  if (picked_ && another_cut) {
+    place(state);
+  } else if (picked_ && other_facts) {
+    picked_->decisions = decisionsFor(mesh, picked_->pick, facts_->plan);
+  }
   for (PinnedProbe& pinned : pinned_) {
-    if (another_mesh) pinned.place = placeProbes(*mesh_, std::span(&pinned.probe, 1)).front();
+    if (another_cut) pinned.place = placeProbes(mesh, std::span(&pinned.probe, 1)).front();
   }
 }
 

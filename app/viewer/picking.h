@@ -82,7 +82,7 @@ class Picking {
   glm::dvec3 eye_{0.0}, direction_{0.0};  // in the file's coordinates
   std::vector<PinnedProbe> pinned_;
   // What the points are placed on.
-  std::shared_ptr<const Mesh> mesh_;
+  std::uint64_t cut_ = 0;  // of the mesh
   std::shared_ptr<const SolveFacts> facts_;
 };
 

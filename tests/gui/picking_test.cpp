@@ -128,6 +128,15 @@ TEST(Picking, IsPlacedAnewOnAnotherMeshAndEndsWithTheScene) {
   EXPECT_FALSE(live->error());
 }
 
+TEST(Picking, ShowsAnEditedMaterial) {
+  LiveViewer live(cornellBox("wait converged\n" + kFloor + "reflectance white 0.2,0.3,0.4\n"));
+  const auto reflectance = [&] { return *pickedQuantities()[0].of(picked(live), *live->state().snapshot); };
+  ASSERT_TRUE(live.until([&] { return live->scriptDone() && reflectance() == glm::dvec3(0.2, 0.3, 0.4); }));
+  expectFloor(live);
+  ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
+  EXPECT_EQ(*radiosityAt(picked(live).place, *live->state().snapshot), probed(live, picked(live).probe));
+}
+
 TEST(Picking, AClickPicksADragDoesNotAndEscapeUnpicks) {
   LiveViewer live(cornellBox("wait converged\nhelp off\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone() && live->nextFrame(0) > 1e30; }));
@@ -151,6 +160,23 @@ TEST(Picking, AClickPicksADragDoesNotAndEscapeUnpicks) {
   ASSERT_TRUE(live.until([&] { return live->shownCamera().at == live->camera().at; }));
   click(live, floor);
   EXPECT_FALSE(live->picking().picked()) << "nothing is there";
+}
+
+TEST(Picking, AClickRightAfterAMoveLeavesTheCameraAlone) {
+  LiveViewer live(cornellBox("wait converged\nhelp off\n"));
+  ASSERT_TRUE(live.until([&] { return live->scriptDone() && live->nextFrame(0) > 1e30; }));
+  const Camera before = live->camera();
+  ImGuiIO& io = ImGui::GetIO();
+  io.MousePos = {100, 100};
+  live.draw();
+  // Moved, pressed and let go before the next frame: ImGui makes two frames of it.
+  io.MousePos = {350, 0.93f * 700};
+  io.MouseDown[0] = true;
+  live.draw();
+  io.MouseDown[0] = false;
+  live.draw();
+  EXPECT_EQ(live->camera().eye, before.eye);
+  expectFloor(live);
 }
 
 TEST(Picking, LooksAtThePointAndOrbitsAroundIt) {
