@@ -32,7 +32,7 @@ HemicubeRays::HemicubeRays(const Mesh& mesh, const CancelToken& cancel)
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
     cancel.check();
     const Surface& surface = mesh.surfaces[s];
-    if (!isLit(surface)) continue;
+    if (surface.triangles.end() > triangles_.size()) continue;
     for (std::uint32_t t = surface.triangles.first; t < surface.triangles.end(); ++t) {
       triangles_[t].surface = s;
       const glm::dmat3 heights = outlineHeights(mesh.triangles[t], far_);

@@ -20,7 +20,7 @@ SceneRays raysOf(const Mesh& mesh) {
 MeshRays::MeshRays(const Mesh& mesh) : mesh_(mesh), rays_(raysOf(mesh)), surface_of_(rays_.triangleCount()) {
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
     const Range& range = mesh.surfaces[s].triangles;
-    if (!isLit(mesh.surfaces[s])) continue;
+    if (range.end() > surface_of_.size()) continue;
     std::fill_n(surface_of_.begin() + range.first, range.count, s);
   }
 }

@@ -35,8 +35,8 @@ bool holds(const ChartTriangle& t, const glm::dvec2& p) {
 ParallelSurfaces::ParallelSurfaces(const Mesh& mesh, const CancelToken& cancel)
     : mesh_(mesh), surface_of_(litTriangles(mesh).size()), tree_(boxesOf(mesh), cancel) {
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
-    if (!isLit(mesh.surfaces[s])) continue;
     const Range& range = mesh.surfaces[s].triangles;
+    if (range.end() > surface_of_.size()) continue;
     std::fill_n(surface_of_.begin() + range.first, range.count, s);
   }
 }
