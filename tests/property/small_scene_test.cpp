@@ -55,6 +55,28 @@ TEST(SmallScene, TakesCoarseMeshesWithinTheErrorOnly) {
   EXPECT_GE(taken, 4u);
 }
 
+TEST(SmallScene, IsWithinTheErrorWhereItIsBundled) {
+  for (const std::string name : {"furnace", "two_patches"}) {
+    const auto make = [&] { return readObj(UNSHOT_SOURCE_DIR "/assets/" + name + ".obj"); };
+    SolveOptions options = soonest(0.01);
+    options.emit_front_only = true;
+    const auto without = solved(make(), options);
+    EXPECT_EQ(keysOf(*without).count("fineness"), 1u) << name;
+    options.do_anyway = {std::string(plan_keys::kFineness)};
+    options.error = 0.003;
+    const double apart = difference(*without, *solved(make(), options));
+    measured(name + " apart", apart);
+    EXPECT_LT(apart, 0.01) << name;
+  }
+}
+
+// A live solve is edited, and the mesh stays: it must do for other light too.
+TEST(SmallScene, HasTheUsualMeshWhereItIsLive) {
+  SolveOptions options = soonest(0.01);
+  options.soonest = false;
+  EXPECT_EQ(keysOf(*solved(furnaceScene(0.5, 0.5), options)).count("fineness"), 0u);
+}
+
 TEST(SmallScene, IsNotFooledByAChipOfAnOccluder) {
   const auto make = [](bool chip) {
     SceneBuilder b;
