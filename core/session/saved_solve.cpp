@@ -26,7 +26,8 @@ template <class Archive, class Saved>
 void transferHead(Archive& a, Saved& s) {
   a.fields(s.scene_hash, s.form_factors, s.emit_front_only, s.sky, s.seed);
   a.fields(s.hemicube_resolution, s.hemicube_drawing, s.mode, s.error);
-  a.list(s.plan, [&](auto& decision) { a.fields(decision.what, decision.why, decision.saving); });
+  a.list(s.plan,
+         [&](auto& decision) { a.fields(decision.key, decision.what, decision.why, decision.saving); });
   a.fields(s.quality, s.drafts_allowed, s.closure.scale, s.closure.exact, s.closure_pending);
   a.fields(s.seconds, s.cpu_seconds, s.mesh_seconds, s.plan_seconds);
   a.fields(s.shots, s.rows, s.drawn, s.history, s.state, s.stopped_by);

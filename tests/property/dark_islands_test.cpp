@@ -89,7 +89,9 @@ TEST(DarkIslands, TakeNoPartInTheSolution) {
   // Were the dark rooms solved, it would be thirty times. To find out that they are dark takes some 10 us a
   // triangle; machines and the moment make a third.
   measured("CPU over that of the lit room alone", many.cpu_seconds / one.cpu_seconds);
-  if (!kSanitized) EXPECT_LT(many.cpu_seconds, 3 * one.cpu_seconds);
+  if (!kSanitized) {
+    EXPECT_LT(many.cpu_seconds, 3 * one.cpu_seconds);
+  }
 }
 
 }  // namespace

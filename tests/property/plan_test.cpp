@@ -153,7 +153,9 @@ TEST(Plan, SavesPatchesWhereFlatWallsAreCutIntoMany) {
   measured("patches otherwise", pair.with->mesh().patch_count);
   const double cpu_ratio = cpu(*pair.without) / cpu(*pair.with);
   measured("CPU over what it is otherwise", cpu_ratio);
-  if (!kSanitized) EXPECT_LT(cpu_ratio, 0.6);
+  if (!kSanitized) {
+    EXPECT_LT(cpu_ratio, 0.6);
+  }
   EXPECT_LT(4 * pair.without->mesh().patch_count, pair.with->mesh().patch_count);
 }
 

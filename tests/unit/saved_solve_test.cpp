@@ -99,6 +99,11 @@ TEST_P(Saved, EndsAsIfItHadNotBeenInterrupted) {
     EXPECT_EQ(solve->measures().drafts, before.drafts);
     EXPECT_EQ(solve->modeKey(), through->modeKey());
     EXPECT_EQ(solve->formFactorsKey(), through->formFactorsKey());
+    ASSERT_EQ(solve->plan().size(), through->plan().size());
+    for (std::size_t k = 0; k < solve->plan().size(); ++k) {
+      EXPECT_EQ(solve->plan()[k].key, through->plan()[k].key);
+      EXPECT_EQ(solve->plan()[k].sure(), through->plan()[k].sure());
+    }
     EXPECT_NEAR(solve->energy().residual(), energy_off, 1e-9 * solve->energy().emitted);
     // As it was left, to the last bit.
     EXPECT_EQ(solve->snapshot().irradiance, left.irradiance);
