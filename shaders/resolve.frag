@@ -12,11 +12,40 @@ uniform bool tone_mapped;
 uniform vec3 background;      // linear values of the display
 uniform vec3 sky;             // linear, where the picture shows light and there is a sky behind it; else 0
 uniform float edge_strength;  // 0..1
+uniform int false_colour;     // 0: none, 1: from 0 on, 2: by decades (core/render/false_colour.h)
+uniform vec3 ramp[7];         // colours of its scale, linear
+uniform float isolines[16];   // places on the scale, ascending
+uniform int isoline_count;
 
 layout(location = 0) out vec4 displayed;
 layout(location = 1) out vec4 linear;
 
-vec3 display(vec4 s) {
+float placeOf(vec4 s) {
+  float share = luminance(s.rgb) * exposure;
+  return clamp(false_colour == 1 ? share : 1.0 + log(max(share, 1e-30)) / (3.0 * log(10.0)), 0.0, 1.0);
+}
+
+// Whether an isoline passes between two neighbours on one surface; what jumps by more than a line has another reason.
+bool crosses(float a, float b) {
+  int between = 0;
+  for (int k = 0; k < isoline_count; ++k) between += int((a < isolines[k]) != (b < isolines[k]));
+  return between == 1;
+}
+
+vec3 falseColour(ivec2 at, vec4 s) {
+  float place = placeOf(s);
+  int below = min(int(place * 6.0), 5);
+  vec3 c = mix(ramp[below], ramp[below + 1], place * 6.0 - float(below));
+  ivec2 last = textureSize(samples, 0) - 1;
+  for (int k = 0; k < 2; ++k) {
+    vec4 next = texelFetch(samples, min(at + ivec2(1 - k, k), last), 0);
+    if (next.a == s.a && crosses(place, placeOf(next))) return place < 0.6 ? mix(c, vec3(1.0), 0.45) : 0.3 * c;
+  }
+  return c;
+}
+
+vec3 display(ivec2 at, vec4 s) {
+  if (false_colour != 0 && s.a != 0.0) return falseColour(at, s);
   if (s.a == 0.0) {
     if (sky == vec3(0.0)) return background;
     s.rgb = sky;
@@ -36,7 +65,7 @@ void main() {
   for (int y = 0; y < factor; ++y) {
     for (int x = 0; x < factor; ++x) {
       vec4 s = texelFetch(samples, first + ivec2(x, y), 0);
-      display_sum += display(s);
+      display_sum += display(first + ivec2(x, y), s);
       linear_mean += weight * (s.a == 0.0 ? sky : s.rgb);
     }
   }

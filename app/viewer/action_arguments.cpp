@@ -79,6 +79,12 @@ std::pair<std::string, bool> materialAndSwitch(const std::string& text) {
   return {name, on == "on"};
 }
 
+std::string checkUnit(const std::string& text) {
+  const std::optional<double> number = parseNumber(text);
+  if (text == "watts" || (number && *number > 0 && *number <= 1e6)) return {};
+  return "'" + text + "' is neither watts nor lumens per watt, above 0";
+}
+
 std::string checkFraction(const std::string& text) {
   const std::optional<double> number = parseNumber(text);
   return number && *number > 0 && *number < 1 ? "" : "'" + text + "' does not lie between 0 and 1";

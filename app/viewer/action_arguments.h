@@ -55,6 +55,9 @@ std::pair<std::string, glm::dvec3> materialAndColour(const std::string& text);
 std::string checkLight(const std::string& text);
 std::pair<std::string, bool> materialAndSwitch(const std::string& text);
 
+/// "watts", or a luminous efficacy [lm/W] for lux.
+std::string checkUnit(const std::string& text);
+
 std::string checkFraction(const std::string& text);
 std::string checkNumber(const std::string& text);
 std::string checkBounces(const std::string& text);

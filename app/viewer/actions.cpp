@@ -42,6 +42,25 @@ void nextDisplay(Viewer& viewer, const std::string&) {
   viewer.notice("display: " + std::string(displayMode(shown).info.title));
 }
 
+void runReflectance(Viewer& viewer, const std::string& text) {
+  const auto wanted = materialAndColour(text);
+  viewer.edit([&](MaterialEdits& edits) {
+    edits.setReflectance(edits.find(wanted.first), wanted.second, viewer.gesture());
+  });
+}
+
+void runEmission(Viewer& viewer, const std::string& text) {
+  const auto wanted = materialAndColour(text);
+  viewer.edit([&](MaterialEdits& edits) {
+    edits.setEmission(edits.find(wanted.first), wanted.second, viewer.gesture());
+  });
+}
+
+void runLight(Viewer& viewer, const std::string& text) {
+  const auto wanted = materialAndSwitch(text);
+  viewer.edit([&](MaterialEdits& edits) { edits.setLight(edits.find(wanted.first), wanted.second); });
+}
+
 constexpr Shortcut kNone{};
 
 const std::
@@ -121,27 +140,14 @@ const std::
                        checkSwitch},
                 Action{"reflectance", "MATERIAL r,g,b",
                        "Give a material another reflectance; the solve goes on with it", kNone,
-                       [](Viewer& v, const std::string& a) {
-                         const auto [name, colour] = materialAndColour(a);
-                         v.edit([&](MaterialEdits& edits) {
-                           edits.setReflectance(edits.find(name), colour, v.gesture());
-                         });
-                       },
+                       runReflectance,
                        checkReflectance, true},
                 Action{"emission", "MATERIAL r,g,b",
                        "Give a material another emission [W/m^2]; the solve goes on with it", kNone,
-                       [](Viewer& v, const std::string& a) {
-                         const auto [name, colour] = materialAndColour(a);
-                         v.edit([&](MaterialEdits& edits) {
-                           edits.setEmission(edits.find(name), colour, v.gesture());
-                         });
-                       },
+                       runEmission,
                        checkEmission, true},
                 Action{"light", "MATERIAL on|off", "Make a material a light, or none",
-                       kNone, [](Viewer& v, const std::string& a) {
-                         const auto [name, on] = materialAndSwitch(a);
-                         v.edit([&](MaterialEdits& edits) { edits.setLight(edits.find(name), on); });
-                       },
+                       kNone, runLight,
                        checkLight, true},
                 Action{"undo", "", "Take the last change of a material back",
                        {GLFW_KEY_Z, true, "Ctrl+Z"},
@@ -184,6 +190,22 @@ const std::
                        [](Viewer& v, const std::string& a) { v.ui().settings.view.display = a; },
                        [](const std::string& a) { return checkKey(displayModes(), false, a); }},
                 Action{"next-display", "", "The next display mode", {GLFW_KEY_M, false, "M"}, nextDisplay},
+                Action{"unit", "watts|LM/W", "The unit of false colours: W/m2, or lux with so many lumens per watt",
+                       kNone,
+                       [](Viewer& v, const std::string& a) {
+                         v.ui().settings.view.false_colour.lumens_per_watt = a == "watts" ? 0 : *parseNumber(a);
+                       },
+                       checkUnit},
+                Action{"isolines", "[on|off]", "False colours with isolines, or without", kNone,
+                       [](Viewer& v, const std::string& a) {
+                         setSwitch(v.ui().settings.view.false_colour.isolines, a);
+                       },
+                       checkSwitch},
+                Action{"logarithmic", "[on|off]", "False colours over three decades, or from 0 on", kNone,
+                       [](Viewer& v, const std::string& a) {
+                         setSwitch(v.ui().settings.view.false_colour.logarithmic, a);
+                       },
+                       checkSwitch},
                 Action{"radiosity",
                        "[on|off]",
                        "With or without radiosity: all light, or only what comes straight from lamps",

@@ -8,6 +8,7 @@
 
 #include "base/clock.h"
 #include "viewer/comparison.h"
+#include "viewer/false_colour_panel.h"
 #include "viewer/panels.h"
 #include "viewer/viewer.h"
 
@@ -182,6 +183,7 @@ bool Viewer::draw(GLuint framebuffer, int width, int height) {
   navigate(seconds);
   buildSidePanel(*this, scene_width_);
   buildLegend(*state_, ui_.settings.view);
+  buildFalseColourLegend(*this, scene_width_);
   buildOverlays(*this, scene_width_, notice_, scene_.framing() || frame_wanted_);
   ImGui::Render();
 

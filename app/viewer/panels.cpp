@@ -12,6 +12,7 @@
 #include "solver/modes.h"
 #include "viewer/bounce_panel.h"
 #include "viewer/error_panel.h"
+#include "viewer/false_colour_panel.h"
 #include "viewer/materials_panel.h"
 #include "viewer/notes_panel.h"
 #include "viewer/picked_panel.h"
@@ -233,6 +234,7 @@ void displaySection(Viewer& viewer) {
   const std::string mode =
       choose("##display", displayModes(), shown, titleOf(displayModes(), shown), nullptr);
   if (!mode.empty()) viewer.perform("display", mode);
+  falseColourChoices(viewer);
   label("Difference", "What the display \"Difference\" compares with");
   if (ImGui::Button("Remember")) viewer.perform("remember");
   tooltip(

@@ -72,6 +72,7 @@ std::optional<Camera> SceneDisplay::continueFraming(std::optional<double> second
 bool SceneDisplay::differs(const Wanted& wanted) const {
   return !drawn_ || !sameSamples(*drawn_, wanted) ||
          drawn_->settings.view.exposure_ev != wanted.settings.view.exposure_ev ||
+         drawn_->settings.view.false_colour != wanted.settings.view.false_colour ||
          drawn_->settings.exposure_locked != wanted.settings.exposure_locked ||
          drawn_->settings.view.automatic_exposure != wanted.settings.view.automatic_exposure;
 }

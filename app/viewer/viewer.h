@@ -117,6 +117,7 @@ class Viewer {
   /// Performs an action of the table; what fails is shown as a message.
   void perform(std::string_view action, const std::string& argument = {});
   ViewerState& ui() { return ui_; }
+  const DisplaySettings& settings() const { return ui_.settings; }
   const SessionState& state() const { return *state_; }
   const gl::ContextInfo& renderer() const { return setup_.display->info(); }
   const std::vector<std::filesystem::path>& bundledScenes() const { return setup_.bundled; }

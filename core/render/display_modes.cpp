@@ -5,12 +5,19 @@
 namespace unshot {
 
 std::span<const DisplayMode> displayModes() {
-  static constexpr std::array<DisplayMode, 10> table = {{
+  static constexpr std::array<DisplayMode, 12> table = {{
       {.info = {"radiosity", "Radiosity", "light as it leaves the surfaces, B = E + rho H, smooth"}},
       {.info = {"flat", "Radiosity per element", "each element in its own radiosity, as the solver sees it"},
        .per_element = true},
       {.info = {"irradiance", "Irradiance", "light as it arrives, H: the picture without the materials"},
        .quantity = Quantity::kIrradiance},
+      {.info = {"false-irradiance", "Irradiance in false colour",
+                "light as it arrives, H, as a scale of colours with a legend and isolines"},
+       .quantity = Quantity::kIrradiance,
+       .false_colour = true},
+      {.info = {"false-radiosity", "Radiosity in false colour",
+                "light as it leaves, B, as a scale of colours with a legend and isolines"},
+       .false_colour = true},
       {.info = {"unshot", "Unshot radiosity", "light still to be shot, U (where it is negative: blue)"},
        .quantity = Quantity::kUnshot},
       {.info = {"emission", "Emission", "the light sources alone, E"}, .quantity = Quantity::kEmission},

@@ -23,10 +23,11 @@ enum class Quantity {
 struct DisplayMode {
   ChoiceInfo info;
   Quantity quantity = Quantity::kRadiosity;
-  bool per_element = false;  ///< the element's own value all over it, instead of interpolated
-  bool edges = false;        ///< element edges drawn over it
-  bool tone_mapped = true;   ///< exposed automatically and tone-mapped; else 1 is white
-  bool exposed = true;       ///< ViewOptions::exposure_ev applies
+  bool per_element = false;   ///< the element's own value all over it, instead of interpolated
+  bool edges = false;         ///< element edges drawn over it
+  bool tone_mapped = true;    ///< exposed automatically and tone-mapped; else 1 is white
+  bool exposed = true;        ///< ViewOptions::exposure_ev applies
+  bool false_colour = false;  ///< its luminance as a scale of colours; the exposure says where that ends
 };
 
 std::span<const DisplayMode> displayModes();

@@ -10,6 +10,7 @@ namespace unshot {
 namespace {
 
 constexpr double kBright = 0.97;        // of the pixels are darker than what is shown near white
+constexpr double kOnScale = 0.995;      // of the pixels lie within a scale
 constexpr double kWhite = 0.9;          // what those are shown as
 constexpr double kMiddleGrey = 0.2;     // what the logarithmic mean would be shown as
 constexpr double kMostLift = 3;         // over the scale that shows the bright ones so
@@ -26,16 +27,24 @@ std::vector<double> luminances(std::span<const glm::vec4> pixels, float wanted) 
   return found;
 }
 
+std::vector<double> reflecting(std::span<const glm::vec4> pixels) {
+  std::vector<double> values = luminances(pixels, kSurfacePixel);
+  return values.empty() ? luminances(pixels, kEmitterPixel) : values;
+}
+
+double quantile(std::vector<double>& values, double share) {
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
 }  // namespace
 
 double automaticExposure(std::span<const glm::vec4> pixels) {
-  std::vector<double> values = luminances(pixels, kSurfacePixel);
-  if (values.empty()) values = luminances(pixels, kEmitterPixel);
+  std::vector<double> values = reflecting(pixels);
   if (values.empty()) return 1;
-  const auto bright_at =
-      values.begin() + static_cast<std::ptrdiff_t>(kBright * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), bright_at, values.end());
-  const double bright = *bright_at;
+  const double bright = quantile(values, kBright);
   double log_sum = 0;
   for (double y : values) log_sum += std::log(std::max(y, kDarkest * bright));
   const double log_mean = std::exp(log_sum / static_cast<double>(values.size()));
@@ -44,6 +53,12 @@ double automaticExposure(std::span<const glm::vec4> pixels) {
   const double lifted = std::sqrt(scale_bright) * std::sqrt(scale_middle);
   const double scale = std::clamp(lifted, scale_bright, kMostLift * scale_bright);
   return std::clamp(scale, 1 / kLargestScale, kLargestScale);
+}
+
+double scaleExposure(std::span<const glm::vec4> pixels) {
+  std::vector<double> values = reflecting(pixels);
+  if (values.empty()) return 1;
+  return std::clamp(1 / quantile(values, kOnScale), 1 / kLargestScale, kLargestScale);
 }
 
 }  // namespace unshot

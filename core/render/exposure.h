@@ -21,4 +21,8 @@ inline constexpr float kEdgePixel = 3;
 /// Finite and positive for any input: values of any scale, all black, infinite or NaN.
 double automaticExposure(std::span<const glm::vec4> pixels);
 
+/// The same for a scale of false colours, which ends at 1: where nearly all reflecting surfaces in view lie
+/// below.
+double scaleExposure(std::span<const glm::vec4> pixels);
+
 }  // namespace unshot

@@ -19,6 +19,11 @@ void bindTexture(const gl::Functions& fn, const gl::Program& program, const char
   fn.Uniform1i(program.uniform(name), unit);
 }
 
+double exposureOf(const ViewOptions& options, const LinearTarget& picture) {
+  const std::vector<glm::vec4> pixels = picture.read();
+  return displayMode(options.display).false_colour ? scaleExposure(pixels) : automaticExposure(pixels);
+}
+
 }  // namespace
 
 SceneView::SceneView(gl::Context& context)
@@ -165,7 +170,25 @@ double SceneView::exposureFor(const Camera& camera, double aspect, const ViewOpt
       small_, std::max(1, static_cast<int>(std::lround(kMeteredPixels / height))), static_cast<int>(height));
   small.bind();
   drawLinear(camera, aspect, {}, options, false);
-  return automaticExposure(small.read());
+  return exposureOf(options, small);
+}
+
+void SceneView::useFalseColour(const gl::Program& program, const FalseColour* how, double scale) const {
+  const gl::Functions& fn = context_.functions();
+  fn.Uniform1i(program.uniform("false_colour"), how == nullptr ? 0 : how->logarithmic ? 2 : 1);
+  if (!how) return;
+  fn.Uniform3fv(program.uniform("ramp"), static_cast<GLsizei>(kFalseColourRamp.size()),
+                glm::value_ptr(kFalseColourRamp[0]));
+  const double top = 1 / scale;
+  std::vector<float> places;
+  if (how->isolines) {
+    for (const double value : isolines(top, *how))
+      places.push_back(static_cast<float>(falseColourPlace(value, top, how->logarithmic)));
+  }
+  places.resize(std::min(places.size(), kMostIsolines));
+  fn.Uniform1i(program.uniform("isoline_count"), static_cast<GLint>(places.size()));
+  if (!places.empty())
+    fn.Uniform1fv(program.uniform("isolines"), static_cast<GLsizei>(places.size()), places.data());
 }
 
 void SceneView::resolve(const LinearTarget& samples, double automatic_exposure, const ViewOptions& options,
@@ -183,6 +206,7 @@ void SceneView::resolve(const LinearTarget& samples, double automatic_exposure, 
   fn.Uniform2i(program.uniform("origin"), viewport.x, viewport.y - first_row);
   fn.Uniform1f(program.uniform("exposure"), finiteValue(scale));
   fn.Uniform1i(program.uniform("tone_mapped"), mode.tone_mapped);
+  useFalseColour(program, mode.false_colour ? &options.false_colour : nullptr, scale);
   fn.Uniform3f(program.uniform("background"), kBackground, kBackground, kBackground);
   const bool shows_light = mode.quantity == Quantity::kRadiosity || mode.quantity == Quantity::kEmission;
   const glm::vec3 sky = shows_light ? glm::vec3(buffers_.sky()) : glm::vec3(0.0f);
@@ -206,7 +230,7 @@ double SceneView::meter(const LinearTarget& samples, const ViewOptions& options)
   small.bindForDrawing();
   fn.BlitFramebuffer(0, 0, samples.width(), samples.height(), 0, 0, small.width(), small.height(),
                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  return automaticExposure(small.read());
+  return exposureOf(options, small);
 }
 
 double SceneView::draw(const Camera& camera, const ViewOptions& options, const Viewport& viewport) {

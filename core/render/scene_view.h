@@ -13,6 +13,7 @@
 #include "gl/objects.h"
 #include "render/camera.h"
 #include "render/display_modes.h"
+#include "render/false_colour.h"
 #include "render/reference_light.h"
 #include "render/scene_buffers.h"
 #include "render/targets.h"
@@ -28,6 +29,7 @@ struct ViewOptions {
   int supersampling = 1;              ///< samples along a pixel's side
   /// Keeps this automatic exposure (what `draw` returned) instead of finding it again.
   std::optional<double> automatic_exposure;
+  FalseColour false_colour;  ///< of the modes that show it
   /// Which light is shown. Where not all is, the ambient term is left out.
   LightChoice light;
   /// What the display mode `difference` compares with, where it is of the mesh that is drawn; else direct
@@ -99,6 +101,7 @@ class SceneView {
   /// Triangles of surfaces without a lit side.
   void drawUnlit(const glm::mat4& matrix, const Camera& camera, const ViewOptions& options,
                  const gl::Texture& element_light, std::size_t first, std::size_t count);
+  void useFalseColour(const gl::Program& program, const FalseColour* how, double scale) const;
   const LinearTarget& target(LinearTarget& kept, int width, int height);
 
   gl::Context& context_;

@@ -5,11 +5,13 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "base/colour.h"
 #include "base/error.h"
 #include "gl/context.h"
 #include "render/automatic_camera.h"
 #include "render/element_edges.h"
 #include "render/exposure.h"
+#include "render/false_colour.h"
 #include "render/picture.h"
 #include "render/scene_view.h"
 #include "support/synthetic_room.h"
@@ -70,6 +72,35 @@ TEST_P(Rendering, EveryModeDrawsWithoutErrorsAndDiffersFromTheOthers) {
       EXPECT_GT(meanDifference(images[i], images[k]), 0.1)
           << displayModes()[i].info.key << " and " << displayModes()[k].info.key;
     }
+  }
+}
+
+// The picture's own linear values say which colour each pixel is to have; isolines and edges are others.
+TEST_P(Rendering, FalseColoursAreThoseOfTheScale) {
+  for (const char* mode : {"false-irradiance", "false-radiosity"}) {
+    const Picture drawn = picture(syntheticRoom(), show(mode));
+    const auto encoded = [](float c) {
+      return 255 * (c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f);
+    };
+    int on_scale = 0, all = 0;
+    double least = 1, most = 0;
+    for (int y = 0; y < drawn.srgb.height; ++y) {
+      for (int x = 0; x < drawn.srgb.width; ++x) {
+        const double value = luminance(pixel(drawn.linear, x, y));
+        if (value == 0) continue;
+        ++all;
+        const double place = falseColourPlace(value, 1 / drawn.exposure, false);
+        least = std::min(least, place);
+        most = std::max(most, place);
+        const glm::vec3 wanted = falseColourAt(place);
+        const glm::dvec3 off =
+            pixel(drawn.srgb, x, y) - glm::dvec3(encoded(wanted.x), encoded(wanted.y), encoded(wanted.z));
+        on_scale += glm::length(off) < 6;
+      }
+    }
+    EXPECT_GT(all, 1000) << mode;
+    EXPECT_GT(on_scale, 0.8 * all) << mode;
+    EXPECT_GT(most - least, 0.2) << mode << ": one colour says nothing";
   }
 }
 
