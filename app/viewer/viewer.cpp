@@ -86,7 +86,7 @@ void Viewer::takeState(double now) {
     forgetOldLight();
     frame_wanted_ = frame_wanted_ || state_->facts->scene_path != framed_scene_;
   }
-  takeMaterials(another);
+  takeMaterials();
   picking_.follow(*state_);
   noteRates(now);
   noteSaved(*before);
@@ -100,10 +100,11 @@ void Viewer::takeState(double now) {
   gui_frames_ = std::max(gui_frames_, news || another ? kFramesAfterInput : 0);
 }
 
-void Viewer::takeMaterials(bool another) {
+void Viewer::takeMaterials() {
   if (!state_->snapshot || session_.sent() != state_->commands) return;
   const std::vector<Material>& materials = state_->snapshot->mesh->materials;
-  if (another && std::exchange(opening_, false))
+  const std::optional<std::uint64_t> opened = std::exchange(opening_, std::nullopt);
+  if (opened && state_->epoch > *opened)
     edits_.begin(materials);
   else if (edits_.materials() != materials)
     edits_.adopt(materials);
@@ -169,7 +170,7 @@ void Viewer::notice(std::string text) {
 
 void Viewer::open(const std::filesystem::path& scene) {
   session_.open(scene, ui_.options);
-  opening_ = true;
+  opening_ = state_->epoch;
 }
 
 void Viewer::restart() {
@@ -181,6 +182,8 @@ void Viewer::restart() {
 }
 
 void Viewer::edit(const std::function<void(MaterialEdits&)>& change) {
+  // What is edited would be another scene's.
+  if (opening_) throw Error(ErrorKind::kUsage, "a scene is being opened", {}, "to wait until it is there");
   const std::vector<Material> before = edits_.materials();
   change(edits_);
   if (edits_.materials() != before) session_.edit(edits_.materials());

@@ -217,7 +217,7 @@ class Viewer {
 
   void takeState(double now);
   void noteRates(double now);
-  void takeMaterials(bool another);
+  void takeMaterials();
   void runScript(double now);
   void runScriptLines(double now);
   bool waitIsOver(const ScriptLine& line, double now);
@@ -254,7 +254,7 @@ class Viewer {
   std::shared_ptr<const SessionState> state_;
   ViewerState ui_;
   MaterialEdits edits_;
-  bool opening_ = true;  // another scene than the one that edits_ are of
+  std::optional<std::uint64_t> opening_ = 0;  // another scene than edits_ are of: the epoch before it
   double scale_ = 0;
 
   // Frames.

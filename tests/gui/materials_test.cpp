@@ -130,6 +130,28 @@ TEST(Materials, WhatCannotBeIsSaidAndChangesNothing) {
   EXPECT_FALSE(live->edits().edited());
 }
 
+TEST(Materials, OfASceneThatIsBeingOpenedAreNotEditedBlindly) {
+  LiveViewer live(cornellBox());
+  ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
+  live->perform("reflectance", "red 0.5,0.5,0.5");
+  live->perform("open", (std::filesystem::path(UNSHOT_SOURCE_DIR) / "assets/two_patches.obj").string());
+  live->perform("undo");
+  ASSERT_TRUE(live->error());
+  EXPECT_THAT(live->error()->what(), HasSubstr("being opened"));
+  live->perform("dismiss");
+  ASSERT_TRUE(live.until([&] { return live->state().facts->scene_name == "two_patches"; }));
+  EXPECT_FALSE(live->edits().canUndo());
+  // One that cannot be opened leaves all as it was.
+  live->perform("reflectance", "floor 0.5,0.5,0.5");
+  live->perform("open", "missing.obj");
+  ASSERT_TRUE(live.until([&] { return live->error().has_value(); }));
+  live->perform("dismiss");
+  EXPECT_TRUE(live->edits().canUndo());
+  live->perform("undo");
+  EXPECT_FALSE(live->error());
+  EXPECT_FALSE(live->edits().edited());
+}
+
 TEST(Materials, AreSavedAsTheyAreShown) {
   const TempFolder folder;
   const std::string file = (folder.path() / "edited.mtl").string();
