@@ -17,10 +17,10 @@ using namespace testing_support;
 Scene litBox(std::uint64_t seed) {
   Dice dice(seed);
   SceneBuilder b;
-  const glm::dvec3 size(dice.between(1, 5), dice.between(1, 5), dice.between(1, 5));
+  const glm::dvec3 size{dice.between(1, 5), dice.between(1, 5), dice.between(1, 5)};
   const double mean = dice.between(0.1, 0.8);
   const auto colour = [&] {
-    return mean * glm::dvec3(dice.between(0.7, 1), dice.between(0.7, 1), dice.between(0.7, 1));
+    return mean * glm::dvec3{dice.between(0.7, 1), dice.between(0.7, 1), dice.between(0.7, 1)};
   };
   BoxMaterials materials;
   for (std::uint32_t& m : materials) m = b.material("wall", colour());

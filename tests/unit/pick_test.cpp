@@ -119,7 +119,7 @@ TEST(Pick, AnEdgeBetweenTrianglesHasNoGap) {
     const glm::dvec3 edge = glm::dvec3(0.41, 0.47, 0) - ring[static_cast<std::size_t>(k) % 4];
     const glm::dvec3 target =
         ring[static_cast<std::size_t>(k) % 4] + dice.between(0.01, 1) * edge - mesh.frame_origin;
-    const glm::dvec3 eye(dice.between(-3, 3), dice.between(-3, 3), dice.between(0.5, 3));
+    const glm::dvec3 eye{dice.between(-3, 3), dice.between(-3, 3), dice.between(0.5, 3)};
     EXPECT_TRUE(pickAlong(mesh, eye, glm::normalize(target - eye))) << k;
   }
 }
