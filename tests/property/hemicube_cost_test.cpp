@@ -15,7 +15,7 @@ using namespace testing_support;
 
 // Medians of CPU time, taken in turns so that what else the machine does falls on all alike. A busy machine
 // can still spoil a round; a cost that grows with the mesh would spoil every one (a hundred times the
-// elements). 1.3 to 1.5 is measured: what is seen lies farther apart in memory.
+// elements). 1.3 to 1.7 is measured: what is seen lies farther apart in memory.
 constexpr double kMostRatio = 2;
 
 TEST(HemicubeCost, IsTheSameAtAThousandTenThousandAndAHundredThousandElements) {
