@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "session/saved_solve.h"
+#include "support/solve_cases.h"
 #include "support/solving.h"
 #include "support/temp_folder.h"
 #include "support/test_scenes.h"
@@ -31,23 +32,11 @@ Scene room(double reflectance = 0.7) {
 }
 
 struct Case {
-  std::string_view name, method, mode;
-  bool follows_light = false;
-  std::size_t kept_bytes = std::size_t{1} << 30;
-  bool sky = false;
-  double white = 0.7;  // reflectance; rows of the form factors are closed where it is high
+  std::string_view name;
+  SolveCase solve;
 };
 
-SolveOptions optionsOf(const Case& c) {
-  SolveOptions options;
-  options.form_factors = c.method;
-  options.mode = c.mode;
-  options.kept_bytes = c.kept_bytes;
-  options.error = c.follows_light ? 0.02 : 0.001;
-  if (!c.follows_light) options.elements = 300;
-  if (c.sky) options.sky = glm::dvec3(0.2, 0.3, 0.5);
-  return options;
-}
+SolveOptions optionsOf(const SolveCase& c) { return optionsOf(c, 0.02); }
 
 gl::Context& context() { return sharedContext(); }
 
@@ -57,23 +46,8 @@ std::unique_ptr<Solve> edited(Solve& before, const std::function<void(std::vecto
   return std::make_unique<Solve>(before, materials, context);
 }
 
-void run(Solve& solve, int most_steps = 1'000'000) {
-  for (int k = 0; k < most_steps && solve.state() == SolveState::kRunning; ++k) solve.step();
-}
-
-// RMS of the difference over RMS of `b`, at vertices.
-double differenceOf(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
-  double off = 0, all = 0;
-  for (std::size_t v = 0; v < b.size(); ++v) {
-    const glm::dvec3 d = glm::dvec3(a[v]) - glm::dvec3(b[v]);
-    off += glm::dot(d, d);
-    all += glm::dot(glm::dvec3(b[v]), glm::dvec3(b[v]));
-  }
-  return std::sqrt(off / all);
-}
-
 // The same mesh and materials from nothing shot.
-std::unique_ptr<Solve> afresh(const Solve& solve, const Case& c) {
+std::unique_ptr<Solve> afresh(const Solve& solve, const SolveCase& c) {
   SolveOptions options = optionsOf(c);
   options.mesh = solve.snapshot().mesh;
   return solved(solve.scene(), options);
@@ -84,7 +58,7 @@ constexpr double kNorms = 2;
 // Form factors are held in single precision.
 constexpr double kRounding = 1e-6;
 
-void expectAsAfresh(Solve& solve, const Case& c) {
+void expectAsAfresh(Solve& solve, const SolveCase& c) {
   run(solve);
   ASSERT_EQ(solve.state(), SolveState::kConverged) << solve.stoppedBy();
   EXPECT_NEAR(solve.energy().residual(), 0, 1e-9 * solve.energy().emitted);
@@ -100,7 +74,7 @@ void expectAsAfresh(Solve& solve, const Case& c) {
 class Edits : public testing::TestWithParam<Case> {};
 
 TEST_P(Edits, EndAsASolveThatBeganWithThem) {
-  const Case& c = GetParam();
+  const SolveCase& c = GetParam().solve;
   auto solve = begun(room(c.white), optionsOf(c));
   run(*solve);
   ASSERT_EQ(solve->state(), SolveState::kConverged) << solve->stoppedBy();
@@ -138,18 +112,19 @@ TEST_P(Edits, EndAsASolveThatBeganWithThem) {
 
 INSTANTIATE_TEST_SUITE_P(
     Solves, Edits,
-    testing::Values(Case{"Hemicube", "hemicube", "southwell"}, Case{"HemicubeByGmres", "hemicube", "gmres"},
-                    Case{"KeepingNothing", "rays", "southwell", false, 0},
-                    Case{"Visibility", "hemicube-visibility", "jacobi"},
-                    Case{"Rays", "rays", "conjugate-gradient"},
-                    Case{"FollowingLight", "rays", "southwell", true},
-                    Case{"UnderASky", "rays", "chebyshev", false, std::size_t{1} << 30, true},
-                    Case{"WhiteRoom", "rays", "jacobi", false, std::size_t{1} << 30, false, 0.95},
-                    Case{"Direct", "rays", "direct"}),
+    testing::Values(Case{"Hemicube", {"hemicube", "southwell"}},
+                    Case{"HemicubeByGmres", {"hemicube", "gmres"}},
+                    Case{"KeepingNothing", {"rays", "southwell", false, 0}},
+                    Case{"Visibility", {"hemicube-visibility", "jacobi"}},
+                    Case{"Rays", {"rays", "conjugate-gradient"}},
+                    Case{"FollowingLight", {"rays", "southwell", true}},
+                    Case{"UnderASky", {"rays", "chebyshev", false, std::size_t{1} << 30, true}},
+                    Case{"WhiteRoom", {"rays", "jacobi", false, std::size_t{1} << 30, false, 0.95}},
+                    Case{"Direct", {"rays", "direct"}}),
     [](const auto& row) { return std::string(row.param.name); });
 
 TEST(EditedSolves, WithoutALightAreDarkAtOnceAndComeBack) {
-  const Case c{"", "rays", "southwell"};
+  const SolveCase c{"rays", "southwell"};
   auto solve = solved(room(), optionsOf(c));
   solve = edited(*solve, [](auto& m) { m[kLight].emission = glm::dvec3(0.0); });
   EXPECT_EQ(solve->state(), SolveState::kConverged);
@@ -161,7 +136,7 @@ TEST(EditedSolves, WithoutALightAreDarkAtOnceAndComeBack) {
 }
 
 TEST(EditedSolves, SayWhereNothingDiesOutAndRecover) {
-  const Case c{"", "rays", "southwell"};
+  const SolveCase c{"rays", "southwell"};
   auto solve = solved(room(), optionsOf(c));
   solve = edited(*solve, [](auto& m) {
     for (Material& material : m) material.reflectance = glm::dvec3(1.0);
@@ -174,7 +149,7 @@ TEST(EditedSolves, SayWhereNothingDiesOutAndRecover) {
 }
 
 TEST(EditedSolves, AreSavedAndGoOnWithTheirMaterials) {
-  const Case c{"", "rays", "southwell"};
+  const SolveCase c{"rays", "southwell"};
   const TempFolder folder;
   auto solve = solved(room(), optionsOf(c));
   solve = edited(*solve, [](auto& m) { m[kRed].reflectance = {0.1, 0.8, 0.1}; });
@@ -194,7 +169,7 @@ TEST(EditedSolves, AreSavedAndGoOnWithTheirMaterials) {
 }
 
 TEST(EditedSolves, RefuseWhatIsNoMaterialAndStayAsTheyAre) {
-  const Case c{"", "rays", "southwell"};
+  const SolveCase c{"rays", "southwell"};
   auto solve = solved(room(), optionsOf(c));
   const std::vector<glm::vec3> before = solve->snapshot().irradiance;
   const double infinite = std::numeric_limits<double>::infinity(), none = std::nan("");
@@ -218,7 +193,7 @@ TEST(EditedSolves, TakeAnotherMeshWhereLightBeginsInTheDark) {
   addBox(b, {block, block, block, block, block, block}, {0.2, 0.2, 0.2}, {0.4, 0.4, 0.4}, false);
   b.quad(inside, {0.3, 0.3, 0.3}, {0.2, 0, 0}, {0, 0, 0.2});
   b.quad(light, {0.7, 0.9, 0.7}, {0.2, 0, 0}, {0, 0, 0.2});
-  const auto solve = solved(b.finish(), optionsOf(Case{"", "rays", "southwell"}));
+  const auto solve = solved(b.finish(), optionsOf(SolveCase{"rays", "southwell"}));
   const auto may = [&](std::size_t material) {
     std::vector<Material> materials = solve->scene().materials;
     materials[material].emission = glm::dvec3(1.0);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <new>
 
+#include "support/solve_cases.h"
 #include "support/solving.h"
 #include "support/temp_folder.h"
 #include "support/test_scenes.h"
@@ -26,24 +27,9 @@ Scene room(double reflectance = 0.7) {
   return b.finish();
 }
 
-struct Case {
-  std::string_view method, mode;
-  bool follows_light = false;
-  std::size_t kept_bytes = std::size_t{1} << 30;
-  bool sky = false;
-  double white = 0.7;  // reflectance; rows of the form factors are closed where it is high
-};
+using Case = SolveCase;
 
-SolveOptions optionsOf(const Case& c) {
-  SolveOptions options;
-  options.form_factors = c.method;
-  options.mode = c.mode;
-  options.kept_bytes = c.kept_bytes;
-  options.error = c.follows_light ? 0.05 : 0.001;
-  if (!c.follows_light) options.elements = 300;
-  if (c.sky) options.sky = glm::dvec3(0.2, 0.3, 0.5);
-  return options;
-}
+SolveOptions optionsOf(const Case& c) { return optionsOf(c, 0.05); }
 
 std::unique_ptr<Solve> resumed(Scene scene, SolveOptions options, const std::filesystem::path& file) {
   return std::make_unique<Solve>(
@@ -51,21 +37,8 @@ std::unique_ptr<Solve> resumed(Scene scene, SolveOptions options, const std::fil
       readSavedSolve(file));
 }
 
-int run(Solve& solve, int most_steps = 1'000'000) {
-  int steps = 0;
-  for (; solve.state() == SolveState::kRunning && steps < most_steps; ++steps) solve.step();
-  return steps;
-}
-
-// RMS of the difference over RMS of `b`, at vertices.
 double differenceOf(const Snapshot& a, const Snapshot& b) {
-  double off = 0, all = 0;
-  for (std::size_t v = 0; v < b.irradiance.size(); ++v) {
-    const glm::dvec3 d = glm::dvec3(a.irradiance[v]) - glm::dvec3(b.irradiance[v]);
-    off += glm::dot(d, d);
-    all += glm::dot(glm::dvec3(b.irradiance[v]), glm::dvec3(b.irradiance[v]));
-  }
-  return std::sqrt(off / all);
+  return testing_support::differenceOf(a.irradiance, b.irradiance);
 }
 
 class Saved : public testing::TestWithParam<Case> {};
