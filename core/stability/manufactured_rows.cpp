@@ -85,7 +85,8 @@ void addManufactured(Cases& cases) {
                    .make = manyQuads,
                    .options = evenMesh(96, 1e-4),
                    .measure = manufacturedFigures,
-                   .large = true});
+                   .large = true,
+                   .most_seconds = 120});
 }
 
 namespace {

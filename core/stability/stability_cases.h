@@ -35,13 +35,13 @@ struct StabilityCase {
   std::function<std::vector<Figure>(const Solve&)> measure = {};
   std::vector<KnownException> exceptions = {};
   bool no_solution = false;  ///< a solve has to end as failed, and say that there is no finite solution
-  bool large = false;        ///< may take kLargestSeconds
+  bool large = false;        ///< takes minutes in some modes
   bool slow = false;         ///< takes thousands of sweeps: seconds in most modes
+  /// Wall time at which a solve counts as one that does not end; on two cores to themselves all but the large
+  /// take a tenth of it.
+  double most_seconds = 30;
 };
 
-/// Wall time at which a solve counts as one that does not end; on two cores to themselves all but the largest
-/// case take a tenth of it.
-inline constexpr double kMostSeconds = 30, kLargestSeconds = 120;
 /// Passes over all patches by which a scene without a finite solution must have been found out: what is
 /// unshot is held against what it was every twenty passes, and a pass of some modes is two.
 inline constexpr double kMostPasses = 100;

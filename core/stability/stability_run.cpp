@@ -122,7 +122,7 @@ StabilityResult runStability(const StabilityCase& trial, const std::string& mode
     options.element_size.reset();
     options.error = kLightError;
   }
-  options.max_seconds = trial.large ? kLargestSeconds : kMostSeconds;
+  options.max_seconds = trial.most_seconds;
   // While the program says that something is not for a scene, it does so in its own words; no folder for
   // files and no OpenGL have no excuse.
   bool own_words = false, stopped = false;

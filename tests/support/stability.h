@@ -7,14 +7,17 @@
 #include <string>
 
 #include "stability/stability_run.h"
+#include "support/sanitized.h"
 #include "support/solving.h"
 
 namespace unshot::testing_support {
 
 inline StabilityResult stabilityOf(const StabilityCase& trial, const std::string& mode,
                                    const std::string& method, Fineness fineness = Fineness::kEven) {
+  StabilityCase given = trial;
+  if (kSanitized) given.most_seconds *= 20;
   return runStability(
-      trial, mode, method, []() -> gl::Context& { return sharedContext(); }, fineness);
+      given, mode, method, []() -> gl::Context& { return sharedContext(); }, fineness);
 }
 
 enum class Expected {
