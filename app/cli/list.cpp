@@ -13,7 +13,7 @@
 #include "session/scene_checks.h"
 #include "session/scene_plan.h"
 #include "solver/modes.h"
-#include "viewer/actions.h"
+#include "viewer/actions/actions.h"
 #include "viewer/glfw_context.h"
 
 namespace unshot {

@@ -4,7 +4,7 @@
 
 #include "base/atomic_file.h"
 #include "export/image_files.h"
-#include "viewer/panels.h"
+#include "viewer/panels/panels.h"
 #include "viewer/viewer.h"
 
 namespace unshot {

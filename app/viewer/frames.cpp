@@ -8,8 +8,8 @@
 
 #include "base/clock.h"
 #include "viewer/comparison.h"
-#include "viewer/false_colour_panel.h"
-#include "viewer/panels.h"
+#include "viewer/panels/false_colour_panel.h"
+#include "viewer/panels/panels.h"
 #include "viewer/viewer.h"
 
 namespace unshot {

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/parse.h"
-#include "viewer/actions.h"
+#include "viewer/actions/actions.h"
 
 namespace unshot {
 namespace {

@@ -10,10 +10,10 @@
 #include "base/clock.h"
 #include "exit_codes.h"
 #include "export/materials.h"
-#include "viewer/actions.h"
+#include "viewer/actions/actions.h"
 #include "viewer/comparison.h"
-#include "viewer/panels.h"
-#include "viewer/theme.h"
+#include "viewer/panels/panels.h"
+#include "viewer/panels/theme.h"
 
 namespace unshot {
 namespace {

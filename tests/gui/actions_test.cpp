@@ -1,4 +1,4 @@
-#include "viewer/actions.h"
+#include "viewer/actions/actions.h"
 
 #include <gmock/gmock.h>
 

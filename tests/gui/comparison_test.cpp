@@ -7,7 +7,7 @@
 #include "export/ply.h"
 #include "support/live_viewer.h"
 #include "support/temp_folder.h"
-#include "viewer/bounce_panel.h"
+#include "viewer/panels/bounce_panel.h"
 
 namespace unshot {
 namespace {

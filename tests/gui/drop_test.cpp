@@ -10,7 +10,7 @@ namespace {
 using namespace testing_support;
 using testing::HasSubstr;
 
-constexpr int kPanel = 304;  // its width at scale 1, as app/viewer/panels.cpp has it [px]
+constexpr int kPanel = 304;  // its width at scale 1, as app/viewer/panels/panels.cpp has it [px]
 
 class Drop : public testing::Test {
  protected:

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "gui/support/gui_bench.h"
-#include "viewer/plot.h"
+#include "viewer/panels/plot.h"
 
 namespace unshot {
 namespace {

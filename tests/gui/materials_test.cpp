@@ -7,7 +7,7 @@
 #include "scene/obj_reader.h"
 #include "support/live_viewer.h"
 #include "support/temp_folder.h"
-#include "viewer/materials_panel.h"
+#include "viewer/panels/materials_panel.h"
 
 namespace unshot {
 namespace {

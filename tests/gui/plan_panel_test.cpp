@@ -1,5 +1,5 @@
 // What the solve left out, in the panel: said, opened, and done all the same.
-#include "viewer/plan_panel.h"
+#include "viewer/panels/plan_panel.h"
 
 #include <gmock/gmock.h>
 #include <imgui_internal.h>

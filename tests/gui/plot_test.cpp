@@ -1,4 +1,4 @@
-#include "viewer/plot.h"
+#include "viewer/panels/plot.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "gui/support/gui_bench.h"
-#include "viewer/plot_axes.h"
-#include "viewer/plot_labels.h"
+#include "viewer/panels/plot_axes.h"
+#include "viewer/panels/plot_labels.h"
 
 namespace unshot {
 namespace {

@@ -90,7 +90,7 @@ TEST(WindowScript, EveryDisplayModeShowsAPictureOfItsOwn) {
 }
 
 /// A choice of the panel at scale 1: the list opens below it, where the window has the room, its rows 20 px
-/// apart (app/viewer/theme.cpp).
+/// apart (app/viewer/panels/theme.cpp).
 class PanelChoices : public testing::Test {
  protected:
   static constexpr int kWidth = 900, kPanel = 304, kLeft = kWidth - kPanel;

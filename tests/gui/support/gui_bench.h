@@ -15,7 +15,7 @@
 #include "export/image_files.h"
 #include "gl/objects.h"
 #include "viewer/gui_renderer.h"
-#include "viewer/theme.h"
+#include "viewer/panels/theme.h"
 
 namespace unshot::testing_support {
 

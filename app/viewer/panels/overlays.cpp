@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <array>
 
-#include "viewer/actions.h"
-#include "viewer/panels.h"
-#include "viewer/picked_panel.h"
-#include "viewer/race_panel.h"
+#include "viewer/actions/actions.h"
+#include "viewer/panels/panels.h"
+#include "viewer/panels/picked_panel.h"
+#include "viewer/panels/race_panel.h"
 
 namespace unshot {
 namespace {

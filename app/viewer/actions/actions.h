@@ -1,4 +1,5 @@
-// The table of named actions: what keys, buttons and scripts can do. A new action is a row.
+// The table of named actions: what keys, buttons and scripts can do. A new action is a row in the file of its
+// group (solve_actions.cpp, display_actions.cpp ...).
 #pragma once
 
 #include <span>
@@ -32,6 +33,15 @@ struct Action {
   bool needsArgument() const { return !argument.empty() && argument.front() != '['; }
 };
 
+/// Actions of one matter, as lists show them.
+struct ActionGroup {
+  std::string_view title;
+  std::span<const Action> actions;
+};
+
+std::span<const ActionGroup> actionGroups();
+
+/// All of them, group after group.
 std::span<const Action> actions();
 
 /// Throws a usage Error that lists them.

@@ -1,10 +1,10 @@
-#include "viewer/race_panel.h"
+#include "viewer/panels/race_panel.h"
 
 #include "base/text.h"
 #include "solver/modes.h"
-#include "viewer/error_panel.h"
+#include "viewer/panels/error_panel.h"
+#include "viewer/panels/widgets.h"
 #include "viewer/scene_area.h"
-#include "viewer/widgets.h"
 
 namespace unshot {
 namespace {

@@ -1,10 +1,10 @@
-#include "viewer/materials_panel.h"
+#include "viewer/panels/materials_panel.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 
-#include "viewer/widgets.h"
+#include "viewer/panels/widgets.h"
 
 namespace unshot {
 namespace {

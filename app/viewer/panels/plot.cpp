@@ -1,10 +1,10 @@
-#include "viewer/plot.h"
+#include "viewer/panels/plot.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "viewer/plot_axes.h"
-#include "viewer/plot_labels.h"
+#include "viewer/panels/plot_axes.h"
+#include "viewer/panels/plot_labels.h"
 
 namespace unshot {
 namespace {

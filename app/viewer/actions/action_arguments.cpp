@@ -1,4 +1,4 @@
-#include "viewer/action_arguments.h"
+#include "viewer/actions/action_arguments.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "viewer/false_colour_panel.h"
+#include "viewer/panels/false_colour_panel.h"
 
 #include <imgui.h>
 
@@ -9,7 +9,7 @@
 
 #include "base/text.h"
 #include "render/display_modes.h"
-#include "viewer/widgets.h"
+#include "viewer/panels/widgets.h"
 
 namespace unshot {
 namespace {

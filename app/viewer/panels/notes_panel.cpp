@@ -1,9 +1,9 @@
-#include "viewer/notes_panel.h"
+#include "viewer/panels/notes_panel.h"
 
 #include <algorithm>
 
 #include "base/text.h"
-#include "viewer/widgets.h"
+#include "viewer/panels/widgets.h"
 
 namespace unshot {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "viewer/plot.h"
+#include "viewer/panels/plot.h"
 
 namespace unshot {
 

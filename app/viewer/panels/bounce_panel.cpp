@@ -1,12 +1,12 @@
-#include "viewer/bounce_panel.h"
+#include "viewer/panels/bounce_panel.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/text.h"
 #include "viewer/comparison.h"
-#include "viewer/race_panel.h"
-#include "viewer/widgets.h"
+#include "viewer/panels/race_panel.h"
+#include "viewer/panels/widgets.h"
 
 namespace unshot {
 namespace {

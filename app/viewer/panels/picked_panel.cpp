@@ -1,4 +1,4 @@
-#include "viewer/picked_panel.h"
+#include "viewer/panels/picked_panel.h"
 
 #include <algorithm>
 #include <array>
@@ -6,8 +6,8 @@
 #include <cstdio>
 
 #include "base/text.h"
-#include "viewer/race_panel.h"
-#include "viewer/widgets.h"
+#include "viewer/panels/race_panel.h"
+#include "viewer/panels/widgets.h"
 
 namespace unshot {
 namespace {

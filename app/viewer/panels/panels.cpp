@@ -1,4 +1,4 @@
-#include "viewer/panels.h"
+#include "viewer/panels/panels.h"
 
 #include <algorithm>
 #include <array>
@@ -10,16 +10,16 @@
 #include "mesh/build.h"
 #include "render/display_modes.h"
 #include "solver/modes.h"
-#include "viewer/bounce_panel.h"
-#include "viewer/error_panel.h"
-#include "viewer/false_colour_panel.h"
-#include "viewer/materials_panel.h"
-#include "viewer/notes_panel.h"
-#include "viewer/picked_panel.h"
-#include "viewer/plan_panel.h"
-#include "viewer/race_panel.h"
-#include "viewer/theme.h"
-#include "viewer/widgets.h"
+#include "viewer/panels/bounce_panel.h"
+#include "viewer/panels/error_panel.h"
+#include "viewer/panels/false_colour_panel.h"
+#include "viewer/panels/materials_panel.h"
+#include "viewer/panels/notes_panel.h"
+#include "viewer/panels/picked_panel.h"
+#include "viewer/panels/plan_panel.h"
+#include "viewer/panels/race_panel.h"
+#include "viewer/panels/theme.h"
+#include "viewer/panels/widgets.h"
 
 namespace unshot {
 namespace {

@@ -1,4 +1,4 @@
-#include "viewer/plot_labels.h"
+#include "viewer/panels/plot_labels.h"
 
 #include <algorithm>
 #include <cmath>

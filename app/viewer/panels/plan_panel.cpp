@@ -1,8 +1,8 @@
-#include "viewer/plan_panel.h"
+#include "viewer/panels/plan_panel.h"
 
 #include <algorithm>
 
-#include "viewer/widgets.h"
+#include "viewer/panels/widgets.h"
 
 namespace unshot {
 namespace {

@@ -1,4 +1,4 @@
-#include "viewer/plot_axes.h"
+#include "viewer/panels/plot_axes.h"
 
 #include <algorithm>
 #include <cmath>

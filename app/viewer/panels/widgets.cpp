@@ -1,4 +1,4 @@
-#include "viewer/widgets.h"
+#include "viewer/panels/widgets.h"
 
 #include <algorithm>
 

@@ -1,14 +1,14 @@
-#include "viewer/error_panel.h"
+#include "viewer/panels/error_panel.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "base/text.h"
-#include "viewer/plot.h"
-#include "viewer/plot_axes.h"
-#include "viewer/race_panel.h"
-#include "viewer/widgets.h"
+#include "viewer/panels/plot.h"
+#include "viewer/panels/plot_axes.h"
+#include "viewer/panels/race_panel.h"
+#include "viewer/panels/widgets.h"
 
 namespace unshot {
 namespace {

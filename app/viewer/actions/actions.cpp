@@ -1,0 +1,64 @@
+#include "viewer/actions/actions.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <array>
+#include <vector>
+
+#include "base/error.h"
+#include "viewer/actions/action_groups.h"
+
+namespace unshot {
+
+std::span<const ActionGroup> actionGroups() {
+  static const std::array<ActionGroup, 6> groups = {{
+      {"Solve", solveActions()},
+      {"Materials", materialActions()},
+      {"Display", displayActions()},
+      {"Picking", pickingActions()},
+      {"Camera", cameraActions()},
+      {"Window", windowActions()},
+  }};
+  return groups;
+}
+
+std::span<const Action> actions() {
+  static const std::vector<Action> all = [] {
+    std::vector<Action> rows;
+    for (const ActionGroup& group : actionGroups())
+      rows.insert(rows.end(), group.actions.begin(), group.actions.end());
+    return rows;
+  }();
+  return all;
+}
+
+const Action& findAction(std::string_view key) {
+  for (const Action& action : actions()) {
+    if (action.key == key) return action;
+  }
+  std::string keys = "wait";
+  for (const Action& action : actions()) keys += ", " + std::string(action.key);
+  throw Error(ErrorKind::kUsage, "there is no action '" + std::string(key) + "'", {}, "one of: " + keys);
+}
+
+std::string checkArgument(const Action& action, const std::string& argument) {
+  if (action.argument.empty()) {
+    return argument.empty() ? "" : "'" + std::string(action.key) + "' takes no argument";
+  }
+  if (argument.empty() && action.needsArgument())
+    return "'" + std::string(action.key) + "' needs " + std::string(action.argument);
+  return action.check ? action.check(argument) : "";
+}
+
+const Action* actionOfKey(int key, bool ctrl) {
+  if (key == GLFW_KEY_KP_ADD) key = GLFW_KEY_EQUAL;
+  if (key == GLFW_KEY_KP_SUBTRACT) key = GLFW_KEY_MINUS;
+  for (const Action& action : actions()) {
+    if (action.shortcut.key != 0 && action.shortcut.key == key && action.shortcut.ctrl == ctrl)
+      return &action;
+  }
+  return nullptr;
+}
+
+}  // namespace unshot

@@ -1,0 +1,127 @@
+// Actions: what of the light is shown, and how bright.
+#include "viewer/actions/action_groups.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <array>
+
+#include "base/parse.h"
+#include "render/display_modes.h"
+#include "viewer/actions/action_arguments.h"
+#include "viewer/viewer.h"
+
+namespace unshot {
+namespace {
+
+void nextDisplay(Viewer& viewer, const std::string&) {
+  std::string& shown = viewer.ui().settings.view.display;
+  const auto modes = displayModes();
+  std::size_t at = 0;
+  while (at < modes.size() && modes[at].info.key != shown) ++at;
+  shown = modes[(at + 1) % modes.size()].info.key;
+  viewer.notice("display: " + std::string(displayMode(shown).info.title));
+}
+
+}  // namespace
+
+std::span<const Action> displayActions() {
+  static constexpr auto kActions = std::to_array<Action>({
+      {"display",
+       "KEY",
+       "What is shown: a display mode",
+       {},
+       [](Viewer& v, const std::string& a) { v.ui().settings.view.display = a; },
+       [](const std::string& a) { return checkKey(displayModes(), false, a); }},
+      {"next-display", "", "The next display mode", {GLFW_KEY_M, false, "M"}, nextDisplay},
+      {"unit",
+       "watts|LM/W",
+       "The unit of false colours: W/m2, or lux with so many lumens per watt",
+       {},
+       [](Viewer& v, const std::string& a) {
+         v.ui().settings.view.false_colour.lumens_per_watt = a == "watts" ? 0 : *parseNumber(a);
+       },
+       checkUnit},
+      {"isolines",
+       "[on|off]",
+       "False colours with isolines, or without",
+       {},
+       [](Viewer& v, const std::string& a) { setSwitch(v.ui().settings.view.false_colour.isolines, a); },
+       checkSwitch},
+      {"logarithmic",
+       "[on|off]",
+       "False colours over three decades, or from 0 on",
+       {},
+       [](Viewer& v, const std::string& a) { setSwitch(v.ui().settings.view.false_colour.logarithmic, a); },
+       checkSwitch},
+      {"radiosity",
+       "[on|off]",
+       "With or without radiosity: all light, or only what comes straight from lamps",
+       {GLFW_KEY_B, false, "B"},
+       [](Viewer& v, const std::string& a) { setSwitch(v.ui().settings.view.light.indirect, a); },
+       checkSwitch},
+      {"bounces",
+       "N|all",
+       "Only the light of the first N bounces, computing what they need",
+       {},
+       [](Viewer& v, const std::string& a) {
+         v.setBounces(a == "all" ? std::nullopt : std::optional(static_cast<std::uint32_t>(whole(a))));
+       },
+       checkBounces},
+      {"complete-bounces",
+       "",
+       "Compute at rest the form factors that light by bounces still lacks",
+       {},
+       [](Viewer& v, const std::string&) { v.completeBounces(); }},
+      {"remember",
+       "",
+       "Remember this light, for the difference from it (display difference)",
+       {GLFW_KEY_K, false, "K"},
+       [](Viewer& v, const std::string&) { v.remember(); },
+       nullptr,
+       true},
+      {"reference",
+       "PATH",
+       "Difference from a solution that unshot solve --ply wrote",
+       {},
+       [](Viewer& v, const std::string& a) { v.loadReference(a); },
+       nullptr,
+       true},
+      {"forget",
+       "",
+       "Difference from direct light again, not from what was remembered",
+       {},
+       [](Viewer& v, const std::string&) { v.forget(); }},
+      {"ambient",
+       "[on|off]",
+       "Add the estimate of light still unshot to the picture",
+       {GLFW_KEY_G, false, "G"},
+       [](Viewer& v, const std::string& a) { setSwitch(v.ui().settings.view.ambient, a); },
+       checkSwitch},
+      {"exposure",
+       "EV",
+       "Stops brighter than the automatic exposure",
+       {},
+       [](Viewer& v, const std::string& a) { v.ui().settings.view.exposure_ev = *parseNumber(a); },
+       checkNumber},
+      {"brighter",
+       "",
+       "Half a stop brighter",
+       {GLFW_KEY_EQUAL, false, "+"},
+       [](Viewer& v, const std::string&) { v.ui().settings.view.exposure_ev += 0.5; }},
+      {"darker",
+       "",
+       "Half a stop darker",
+       {GLFW_KEY_MINUS, false, "-"},
+       [](Viewer& v, const std::string&) { v.ui().settings.view.exposure_ev -= 0.5; }},
+      {"lock-exposure",
+       "[on|off]",
+       "Keep the present exposure, or follow the light",
+       {GLFW_KEY_L, false, "L"},
+       [](Viewer& v, const std::string& a) { setSwitch(v.ui().settings.exposure_locked, a); },
+       checkSwitch},
+  });
+  return kActions;
+}
+
+}  // namespace unshot

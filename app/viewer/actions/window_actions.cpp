@@ -1,0 +1,98 @@
+// Actions: panels, window and pictures of it.
+#include "viewer/actions/action_groups.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <array>
+
+#include "base/parse.h"
+#include "viewer/actions/action_arguments.h"
+#include "viewer/viewer.h"
+
+namespace unshot {
+
+std::span<const Action> windowActions() {
+  static constexpr auto kActions = std::to_array<Action>({
+      {"panel",
+       "[on|off]",
+       "Show or hide the panel",
+       {GLFW_KEY_TAB, false, "Tab"},
+       [](Viewer& v, const std::string& a) { setSwitch(v.ui().panel, a); },
+       checkSwitch},
+      {"notes",
+       "[on|off]",
+       "Show or hide what is doubtful about the scene, in the panel",
+       {},
+       [](Viewer& v, const std::string& a) { setSwitch(v.ui().notes, a); },
+       checkSwitch},
+      {"left-out",
+       "[on|off]",
+       "Show or hide what the solve leaves out, in the panel",
+       {},
+       [](Viewer& v, const std::string& a) { setSwitch(v.ui().left_out, a); },
+       checkSwitch},
+      {"materials",
+       "[on|off]",
+       "Show or hide the materials, in the panel",
+       {},
+       [](Viewer& v, const std::string& a) { setSwitch(v.ui().materials, a); },
+       checkSwitch},
+      {"plot",
+       "seconds|shots|rows",
+       "What the curve runs against",
+       {},
+       [](Viewer& v, const std::string& a) { v.ui().plot_axis = *plotAxis(a); },
+       [](const std::string& a) {
+         return plotAxis(a) ? std::string() : "'" + a + "' is neither seconds, shots nor rows";
+       }},
+      {"help",
+       "[on|off]",
+       "Show or hide this help",
+       {GLFW_KEY_H, false, "H"},
+       [](Viewer& v, const std::string& a) { setSwitch(v.ui().help, a); },
+       checkSwitch},
+      {"dismiss",
+       "",
+       "Close the message or the help, or pick nothing",
+       {GLFW_KEY_ESCAPE, false, "Esc"},
+       [](Viewer& v, const std::string&) { v.dismiss(); }},
+      {"size",
+       "WxH",
+       "Make the window this large [px]",
+       {},
+       [](Viewer& v, const std::string& a) {
+         const auto size = sizeOf(a);
+         v.resizeWindow(size->first, size->second);
+       },
+       checkSize},
+      {"scale",
+       "S",
+       "Size of panels and text, 1 is normal",
+       {},
+       [](Viewer& v, const std::string& a) { v.setScale(*parseNumber(a)); },
+       checkScale},
+      {"screenshot",
+       "[PATH]",
+       "Write what the window shows as PNG",
+       {GLFW_KEY_F12, false, "F12"},
+       [](Viewer& v, const std::string& a) { v.screenshot(a, true); },
+       nullptr,
+       true},
+      {"screenshot-scene",
+       "[PATH]",
+       "The same without panels",
+       {GLFW_KEY_F12, true, "Ctrl+F12"},
+       [](Viewer& v, const std::string& a) { v.screenshot(a, false); },
+       nullptr,
+       true},
+      {"quit",
+       "",
+       "Close the window",
+       {GLFW_KEY_Q, true, "Ctrl+Q"},
+       [](Viewer& v, const std::string&) { v.close(); }},
+  });
+  return kActions;
+}
+
+}  // namespace unshot
