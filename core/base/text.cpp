@@ -7,6 +7,9 @@
 namespace unshot {
 namespace {
 
+// Light is kept in single precision: parts smaller than these are its rounding.
+constexpr double kNoFraction = 1e-9;
+
 std::string formatted(const char* format, double value) {
   char buffer[64];
   std::snprintf(buffer, sizeof buffer, format, value);
@@ -40,7 +43,9 @@ std::string figureText(double value) {
   return text;
 }
 
-std::string percentText(double fraction) { return figureText(100 * fraction) + " %"; }
+std::string percentText(double fraction) {
+  return figureText(std::abs(fraction) < kNoFraction ? 0 : 100 * fraction) + " %";
+}
 
 std::string durationText(double seconds) {
   if (!(seconds >= 0) || seconds > 1e9) return "?";

@@ -28,7 +28,12 @@ bool PlotLabels::place(const std::string& text, ImVec2 at, ImVec2 align, ImU32 c
 }
 
 void PlotLabels::draw(ImDrawList& list) const {
-  for (const Label& label : labels_) list.AddText(label.min, label.colour, label.text.c_str());
+  // Curves that run behind a text are dimmed there.
+  const ImU32 dim = ImGui::GetColorU32(ImGuiCol_WindowBg, 0.7f);
+  for (const Label& label : labels_) {
+    list.AddRectFilled({label.min.x - 2, label.min.y}, {label.max.x + 2, label.max.y}, dim, 3);
+    list.AddText(label.min, label.colour, label.text.c_str());
+  }
 }
 
 }  // namespace unshot
