@@ -157,6 +157,8 @@ void Viewer::dismiss() {
     error_.reset();
   } else if (ui_.help) {
     ui_.help = false;
+  } else if (state_->phase == SessionPhase::kLoading) {
+    giveUpLoading();
   } else {
     unpick();
   }
@@ -171,6 +173,13 @@ void Viewer::notice(std::string text) {
 void Viewer::open(const std::filesystem::path& scene) {
   session_.open(scene, ui_.options);
   opening_ = state_->epoch;
+}
+
+void Viewer::giveUpLoading() {
+  if (state_->phase != SessionPhase::kLoading) return;
+  session_.giveUpLoading();
+  if (state_->facts) ui_.options = state_->facts->options;  // the panel shows what stays
+  notice("given up: " + state_->task);
 }
 
 void Viewer::restart() {

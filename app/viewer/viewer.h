@@ -132,6 +132,8 @@ class Viewer {
   double frameMilliseconds() const { return 1000 * frame_cost_; }
 
   void open(const std::filesystem::path& scene);
+  /// Gives up what is being loaded, if anything is: the scene before stays.
+  void giveUpLoading();
   /// Solves again from the start with ui().options.
   void restart();
   /// The same with the form factors at hand.
@@ -191,7 +193,7 @@ class Viewer {
   void notice(std::string text);
   void showError(const Error& error);
   const std::optional<Error>& error() const { return error_; }
-  /// Closes what lies over the scene: the message, else the help, else what is picked.
+  /// Closes what lies over the scene: the message, else the help, else gives up loading or what is picked.
   void dismiss();
   void close() { closing_ = true; }
 

@@ -143,6 +143,11 @@ void Session::open(std::filesystem::path scene, SolveOptions options, std::share
   impl_->send(command::Open{std::move(scene), std::move(options), std::move(saved)});
 }
 
+void Session::giveUpLoading() {
+  const std::lock_guard lock(impl_->mutex);  // next() sets it anew for the next command
+  impl_->given_up = true;
+}
+
 void Session::restart(SolveOptions options) { impl_->send(command::Restart{std::move(options)}); }
 
 void Session::shootAgain() { impl_->send(command::ShootAgain{}); }

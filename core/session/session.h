@@ -132,6 +132,9 @@ class Session {
   /// the first moment; a pause sent after this command finds it before its first shot.
   /// Where `saved` is given it goes on from there, as Solve::Solve describes it; it is used up.
   void open(std::filesystem::path scene, SolveOptions options, std::shared_ptr<SavedSolve> saved = nullptr);
+  /// Gives up what is being loaded now: what was before stays, and goes on. Commands that wait are carried
+  /// out.
+  void giveUpLoading();
   /// The present scene as it was read, from the start, with these options; open() reads the file again.
   /// Another restart that is not ready is given up.
   void restart(SolveOptions options);

@@ -7,6 +7,7 @@
 
 #include "mesh/build.h"
 #include "support/dice.h"
+#include "support/landscape.h"
 #include "support/sanitized.h"
 #include "support/temp_folder.h"
 #include "threads/session_scenes.h"
@@ -19,33 +20,9 @@ using namespace testing_support;
 // Sanitizers make loading fifty times slower.
 constexpr int kSquares = kSanitized ? 80 : 250;
 
-/// A wavy ground of 2 n^2 triangles under a lamp.
-std::string landscape(int n) {
-  std::string text = "mtllib land.mtl\nusemtl ground\n";
-  const auto number = [](double x) { return " " + std::to_string(x); };
-  for (int j = 0; j <= n; ++j) {
-    for (int i = 0; i <= n; ++i) {
-      const double x = 10.0 * i / n, z = 10.0 * j / n;
-      text += "v" + number(x) + number(std::sin(3 * x) * std::cos(2 * z)) + number(z) + "\n";
-    }
-  }
-  for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i) {
-      const std::string a = " " + std::to_string(j * (n + 1) + i + 1),
-                        b = " " + std::to_string(j * (n + 1) + i + 2),
-                        c = " " + std::to_string((j + 1) * (n + 1) + i + 1),
-                        d = " " + std::to_string((j + 1) * (n + 1) + i + 2);
-      text.append("f").append(a).append(c).append(b).append("\nf").append(b).append(c).append(d).append("\n");
-    }
-  }
-  return text + "v 4 3 4\nv 6 3 4\nv 6 3 6\nv 4 3 6\nusemtl lamp\nf -4 -3 -2 -1\n";
-}
-
 class SessionGivingUp : public testing::Test {
  protected:
-  SessionGivingUp() {
-    folder_.write("land.mtl", "newmtl ground\nKd .5 .5 .5\nnewmtl lamp\nKd 0 0 0\nKe 9 9 9\n");
-  }
+  SessionGivingUp() { folder_.write("land.mtl", kLandscapeMaterials); }
 
   double loadSeconds() const {
     const double began = wallSeconds();
@@ -120,6 +97,34 @@ TEST_F(SessionGivingUp, ALaterSceneThatFailsLeavesTheOneBefore) {
   EXPECT_EQ(after->snapshot->mesh, before->snapshot->mesh);
   EXPECT_EQ(after->phase, SessionPhase::kConverged);
   EXPECT_EQ(after->problems, 1u);
+}
+
+TEST_F(SessionGivingUp, WhenAskedToTheSceneBeforeGoesOn) {
+  const double load_seconds = loadSeconds();
+  for (const bool reading : {true, false}) {
+    SessionWatch watch;
+    watch->open(asset("cornell_box.obj"), endless(60));
+    const StatePointer before = watch.carriedOut();
+    watch->open(scene_, options_);
+    watch.wait("loading",
+               [&](const SessionState& s) { return s.task.starts_with(reading ? "reading" : "meshing"); });
+    const double asked = wallSeconds();
+    watch->giveUpLoading();
+    const StatePointer after = watch.wait("more shots", [&](const SessionState& s) {
+      return s.phase == SessionPhase::kRunning && s.measures.shots > before->measures.shots;
+    });
+    EXPECT_LT(wallSeconds() - asked, soon(load_seconds));
+    EXPECT_EQ(after->epoch, before->epoch);
+    EXPECT_EQ(after->facts->scene_name, "cornell_box");
+    EXPECT_EQ(after->problems, 0u);
+  }
+  SessionWatch watch;
+  watch->giveUpLoading();  // of nothing
+  watch->open(scene_, options_);
+  watch.wait("loading", [&](const SessionState& s) { return !s.task.empty(); });
+  watch->giveUpLoading();
+  EXPECT_EQ(watch.wait("the end of it", [](const SessionState& s) { return s.commands == 1; })->phase,
+            SessionPhase::kEmpty);
 }
 
 TEST_F(SessionGivingUp, OfSeveralRestartsTheLastCounts) {

@@ -54,7 +54,7 @@ std::span<const Action> windowActions() {
        checkSwitch},
       {"dismiss",
        "",
-       "Close the message or the help, or pick nothing",
+       "Close the message or the help, give up loading, or pick nothing",
        {GLFW_KEY_ESCAPE, false, "Esc"},
        [](Viewer& v, const std::string&) { v.dismiss(); }},
       {"size",

@@ -6,6 +6,7 @@
 #include "viewer/panels/panels.h"
 #include "viewer/panels/picked_panel.h"
 #include "viewer/panels/race_panel.h"
+#include "viewer/panels/widgets.h"
 
 namespace unshot {
 namespace {
@@ -82,6 +83,18 @@ void errorWindow(Viewer& viewer, float middle) {
   ImGui::PopStyleColor(2);
 }
 
+void loadingWindow(Viewer& viewer, float middle) {
+  ImGui::SetNextWindowPos({middle, ImGui::GetIO().DisplaySize.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowBgAlpha(0.85f);
+  ImGui::Begin("loading", nullptr, kFixed);
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted((viewer.state().task + " \u2026").c_str());
+  ImGui::SameLine();
+  if (ImGui::Button("Give up")) viewer.perform("give-up");
+  tooltip("Esc: the scene before stays");
+  ImGui::End();
+}
+
 void line(const char* id, const std::string& text, ImVec2 at, ImVec2 pivot) {
   ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
   ImGui::SetNextWindowBgAlpha(0.85f);
@@ -100,7 +113,7 @@ void buildOverlays(Viewer& viewer, int scene_width, const std::string& notice, b
   buildMarks(viewer, scene_width);
   buildRaceLabels(viewer, scene_width);
   if (state.phase == SessionPhase::kLoading) {
-    line("loading", state.task + " \u2026", {middle, height / 2}, {0.5f, 0.5f});
+    loadingWindow(viewer, middle);
   } else if (framing && state.facts) {
     line("framing", "looking for a good view \u2026", {middle, height / 2}, {0.5f, 0.5f});
   } else if (state.phase == SessionPhase::kEmpty && !viewer.error()) {
