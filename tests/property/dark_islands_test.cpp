@@ -1,6 +1,7 @@
 // Parts of a scene that no light reaches take no part in its solution and cost nothing of it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -92,6 +93,38 @@ TEST(DarkIslands, TakeNoPartInTheSolution) {
   if (!kSanitized) {
     EXPECT_LT(many.cpu_seconds, 3 * one.cpu_seconds);
   }
+}
+
+/// A room with a lamp and one without, and between them a wall that ends so far below the ceiling.
+Scene twoRooms(double gap) {
+  SceneBuilder builder;
+  const auto grey = builder.material("grey", glm::dvec3(0.5, 0.6, 0.7));
+  const auto lamp = builder.material("lamp", glm::dvec3(0.3), glm::dvec3(10));
+  BoxMaterials first = allOf(grey), second = allOf(grey);
+  first[1] = second[0] = kNone;
+  addBox(builder, first, glm::dvec3(0), {4, 3, 4}, true);
+  addBox(builder, second, {4, 0, 0}, {4, 3, 4}, true);
+  builder.quad(grey, {4, 0, 0}, {0, 3 - gap, 0}, {0, 0, 4});
+  builder.quad(lamp, {1.5, 2.8, 1.5}, {1, 0, 0}, {0, 0, 1});
+  return builder.finish();
+}
+
+// Light might come through: the room behind is solved, and as if the plan looked for nothing dark.
+TEST(DarkIslands, ARoomBehindACrackIsNone) {
+  const auto plans = [](const Solve& solve) {
+    return std::any_of(solve.plan().begin(), solve.plan().end(),
+                       [](const PlanDecision& d) { return d.key == plan_keys::kDarkSides; });
+  };
+  const auto shut = solved(twoRooms(0), soonest()), ajar = solved(twoRooms(1e-4), soonest());
+  EXPECT_TRUE(plans(*shut));
+  EXPECT_FALSE(plans(*ajar));
+  SolveOptions all = soonest();
+  all.do_anyway = {std::string(plan_keys::kDarkSides)};
+  const auto anyway = solved(twoRooms(1e-4), all);
+  ASSERT_EQ(ajar->mesh().sides.size(), anyway->mesh().sides.size());
+  const std::vector<glm::dvec3> a = ajar->patchRadiosity(), b = anyway->patchRadiosity();
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t q = 0; q < a.size(); ++q) EXPECT_EQ(a[q], b[q]) << "patch " << q;
 }
 
 }  // namespace
