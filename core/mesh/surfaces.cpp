@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <set>
+#include <span>
 
 #include "scene/triangulate.h"
 
@@ -11,7 +12,9 @@ namespace unshot {
 namespace {
 
 constexpr double kSmoothCosine = 0.8660254037844387;  // 30 degrees
-constexpr double kSameNormalCosine = 0.9998;          // given normals that agree within a degree
+// Areas and lengths that differ by no more are equal; edges run along an axis within a degree.
+constexpr double kAsSmall = 0.01, kAsLong = 0.01, kAlong = 0.9998;
+constexpr double kSameNormalCosine = 0.9998;  // given normals that agree within a degree
 
 struct EdgeUse {
   std::uint32_t low, high, polygon;
@@ -140,7 +143,8 @@ class SurfaceMaker {
   }
 
   // Axes along the outline edge that gives the smallest bounding rectangle: cells then follow walls and
-  // floors.
+  // floors. Of rectangles that are as small the one that most of the outline runs along, as that of a right
+  // triangle along its legs.
   void makeChart(const std::vector<std::uint32_t>& members, Surface& surface) const {
     std::vector<std::pair<double, glm::dvec3>> candidates;
     for (const std::uint32_t p : members) {
@@ -155,7 +159,7 @@ class SurfaceMaker {
     const std::size_t tried = std::min<std::size_t>(candidates.size(), 16);
     std::partial_sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(tried),
                       candidates.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
-    double best = INFINITY;
+    double best = INFINITY, best_along = 0;
     for (std::size_t k = 0; k < tried; ++k) {
       cancel_.check();
       const glm::dvec3 u = candidates[k].second, v = glm::cross(surface.normal, u);
@@ -168,8 +172,16 @@ class SurfaceMaker {
         }
       }
       const glm::dvec2 size = high - low;
-      if (size.x * size.y >= best * (1 - 1e-9)) continue;
-      best = size.x * size.y;
+      const double area = size.x * size.y;
+      double along = 0;
+      for (const auto& [minus_length, d] : std::span(candidates).first(tried)) {
+        if (std::abs(glm::dot(d, u)) > kAlong || std::abs(glm::dot(d, v)) > kAlong) along -= minus_length;
+      }
+      const bool as_small = std::abs(area - best) <= kAsSmall * area,
+                 as_long = std::abs(along - best_along) <= kAsLong * along;
+      if (as_small && !as_long ? along < best_along : area >= best * (1 - 1e-9)) continue;
+      best = area;
+      best_along = along;
       const double w = glm::dot(welded_.positions[welded_.outline(members[0])[0]], surface.normal);
       surface.axis_u = u;
       surface.axis_v = v;

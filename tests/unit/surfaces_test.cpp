@@ -133,6 +133,32 @@ TEST(Surfaces, HaveAnOrthonormalChartThatHoldsThem) {
   }
 }
 
+// All rectangles around a triangle along its edges are of one size.
+TEST(Surfaces, OfARightTriangleLieAlongItsLegs) {
+  Dice dice(6);
+  for (const double skew : {0.0, 0.01}) {  // walls of real rooms are not quite square
+    SceneBuilder b;
+    b.material("m", glm::dvec3(0.5));
+    b.polygon(0, {onFloor(0, 0), onFloor(skew, 3), onFloor(2, 0)});
+    const Made made = make(moved(b.finish(), dice.rotation(), 1, dice.inCube(10)));
+    ASSERT_EQ(made.mesh.surfaces.size(), 1u);
+    const glm::dvec2 size = made.mesh.surfaces[0].extent;
+    EXPECT_NEAR(std::max(size.x, size.y), 3, 0.02);
+    EXPECT_NEAR(std::min(size.x, size.y), 2, 0.02);
+  }
+}
+
+// Of a wall that is not quite a rectangle too the smallest one counts.
+TEST(Surfaces, LieInTheSmallestRectangle) {
+  SceneBuilder b;
+  b.material("m", glm::dvec3(0.5));
+  b.polygon(0, {onFloor(0, 0), onFloor(0, 5.53), onFloor(5.59, 5.5), onFloor(5.59, 0)});
+  const Made made = make(b.finish());
+  ASSERT_EQ(made.mesh.surfaces.size(), 1u);
+  const glm::dvec2 size = made.mesh.surfaces[0].extent;
+  EXPECT_NEAR(size.x * size.y, 5.53 * 5.59, 1e-9);
+}
+
 // The outline is what two polygons of the surface do not share: its length is the perimeter, whatever the
 // polygons.
 TEST(Surfaces, MarkTheirOutline) {
