@@ -136,7 +136,7 @@ void Viewer::perform(std::string_view action, const std::string& argument) {
 }
 
 void Viewer::key(int key, bool ctrl) {
-  if (const Action* action = actionOfKey(key, ctrl)) perform(action->key);
+  if (const Action* action = actionOfKey(key, ctrl)) perform(action->key, action->argumentOfKey(key));
 }
 
 /// Shown, said on the terminal, and remembered for the exit code where nobody may be looking.
@@ -291,22 +291,6 @@ Error Viewer::rescue(const Error& error) {
   return Error(error.kind(), error.what(), error.where(),
                "unshot view " + state_->facts->scene_path.string() + " --resume " + path.string() +
                    ", which goes on from what was shot");
-}
-
-void Viewer::frameScene() { frame_wanted_ = true; }
-
-void Viewer::setCamera(const glm::dvec3& eye, const glm::dvec3& at, std::optional<double> fov_deg) {
-  if (!scene_.snapshot() && !state_->snapshot) {
-    throw Error(ErrorKind::kUsage, "there is no scene to look at yet", {}, "wait for it first: wait shots 1");
-  }
-  const Mesh& mesh = *state_->snapshot->mesh;
-  Camera camera = navigator_.camera();
-  camera.eye = eye - mesh.frame_origin;
-  camera.at = at - mesh.frame_origin;
-  if (fov_deg) camera.fov_deg = *fov_deg;
-  navigator_.reset(camera, {mesh.bounds_min, mesh.bounds_max});
-  frame_wanted_ = false;
-  framed_scene_ = state_->facts->scene_path;
 }
 
 void Viewer::resizeWindow(int width, int height) {

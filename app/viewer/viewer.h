@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "session/session.h"
+#include "viewer/camera_views.h"
 #include "viewer/gui_renderer.h"
 #include "viewer/material_edits.h"
 #include "viewer/navigator.h"
@@ -162,8 +163,15 @@ class Viewer {
   void forget();
   /// Finds the automatic camera again.
   void frameScene();
-  /// In the coordinates of the scene's file.
+  /// In the coordinates of the scene's file; projection and upwards stay.
   void setCamera(const glm::dvec3& eye, const glm::dvec3& at, std::optional<double> fov_deg);
+  /// All of the scene along an axis.
+  void viewAlong(const AxisView& view);
+  /// In the coordinates of the scene's file; nothing without a scene.
+  std::optional<Camera> cameraInFile() const;
+  std::optional<Bounds> boundsInFile() const;
+  /// To the clipboard: as lines of a script, or as options of unshot solve.
+  void copyCamera(bool options);
   Navigator& navigator() { return navigator_; }
   void resizeWindow(int width, int height);
   const Picking& picking() const { return picking_; }
@@ -212,6 +220,11 @@ class Viewer {
     std::size_t gui;      ///< fingerprint
     bool operator==(const PaintedLook&) const = default;
   };
+  /// A place in one of the pictures of the scene, in units of its size.
+  struct PicturePlace {
+    int width;  ///< of the picture [px]
+    glm::dvec2 at;
+  };
   struct RatePoint {
     double time;
     std::uint64_t shots, rows;
@@ -227,6 +240,11 @@ class Viewer {
   void forgetOldLight();
   void fail(const Error& error);
   void navigate(double seconds);
+  void zoomAtMouse(double notches);
+  void placeCamera(const Camera& camera);
+  double pictureAspect() const;
+  const Mesh& requiredMesh() const;
+  std::optional<PicturePlace> placeUnder(const glm::dvec2& mouse) const;
   void pickClicked();
   void pickAt(const Camera& camera, int width, const glm::dvec2& at);
   bool mayBeSharpened(double now) const;
@@ -272,6 +290,13 @@ class Viewer {
 
   Picking picking_;
   std::optional<glm::dvec2> pick_wanted_;
+  /// What the wheel goes to, as long as only the wheel moves.
+  struct ZoomTarget {
+    glm::dvec2 mouse;
+    Camera camera;
+    glm::dvec3 point;
+  };
+  std::optional<ZoomTarget> zoom_target_;
 
   // The scene shown.
   std::filesystem::path framed_scene_;  // the camera is for this one
