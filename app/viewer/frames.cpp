@@ -60,6 +60,7 @@ bool Viewer::mayBeSharpened(double now) const {
 
 /// Looks for a camera, where one is wanted. Returns whether it was found.
 bool Viewer::frame() {
+  if (recallCamera()) return true;
   if (frame_wanted_ && scene_.snapshot() == state_->snapshot && state_->snapshot &&
       (state_->measures.shots > 0 || idle(state_->phase))) {
     frame_wanted_ = false;
@@ -72,6 +73,7 @@ bool Viewer::frame() {
   const Bounds bounds{mesh.bounds_min, mesh.bounds_max};
   navigator_.reset(
       navigator_.camera().orthographic ? parallelCamera(*camera, bounds, pictureAspect()) : *camera, bounds);
+  found_camera_ = navigator_.camera();
   scene_.snapExposure();
   last_motion_ = last_frame_;
   input();

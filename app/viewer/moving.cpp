@@ -75,7 +75,10 @@ void Viewer::zoomAtMouse(double notches) {
   zoom_target_->camera = navigator_.camera();
 }
 
-void Viewer::frameScene() { frame_wanted_ = true; }
+void Viewer::frameScene() {
+  frame_wanted_ = true;
+  camera_from_memory_ = false;
+}
 
 /// Of one of the pictures, where there are two; those that are higher than wide show as much as square ones.
 double Viewer::pictureAspect() const {

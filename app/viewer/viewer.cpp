@@ -39,10 +39,12 @@ Viewer::Viewer(ViewerSetup setup)
       scene_(*setup_.display),
       session_(setup_.session),
       state_(session_.latest()),
+      memory_(setup_.memory),
       script_(setup_.script) {
   ui_.options = setup_.options;
   ui_.settings = setup_.settings;
-  setScale(1);
+  recallPanel();
+  applyScale();
   if (!script_.empty()) hold_.emplace(session_);
   if (!setup_.scene.empty()) session_.open(setup_.scene, ui_.options, std::move(setup_.saved));
 }
@@ -50,6 +52,17 @@ Viewer::Viewer(ViewerSetup setup)
 Viewer::~Viewer() = default;
 
 void Viewer::setScale(double scale) {
+  relative_scale_ = scale / screen_scale_;
+  applyScale();
+}
+
+void Viewer::setScreenScale(double scale) {
+  screen_scale_ = scale;
+  applyScale();
+}
+
+void Viewer::applyScale() {
+  const double scale = std::clamp(screen_scale_ * relative_scale_, 0.5, 4.0);
   if (scale == scale_) return;
   scale_ = scale;
   applyTheme(ImGui::GetIO(), ImGui::GetStyle(), static_cast<float>(scale));
@@ -84,7 +97,11 @@ void Viewer::takeState(double now) {
     if (script_.empty()) exit_code_ = 0;
     if (setup_.title) setup_.title(state_->facts->scene_name + " \u2013 Unshot");
     forgetOldLight();
-    frame_wanted_ = frame_wanted_ || state_->facts->scene_path != framed_scene_;
+    if (state_->facts->scene_path != framed_scene_) {
+      rememberCamera(*before);
+      frame_wanted_ = camera_from_memory_ = true;
+      memory_.noteScene(state_->facts->scene_path);
+    }
   }
   takeMaterials();
   picking_.follow(*state_);
@@ -277,6 +294,8 @@ void Viewer::noteSaved(const SessionState& before) {
 
 void Viewer::finish() {
   closing_ = true;
+  rememberCamera(*state_);
+  rememberPanel();
   session_.close();
   takeState(wallSeconds());
 }

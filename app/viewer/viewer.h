@@ -10,18 +10,22 @@
 // once.
 #pragma once
 
+#include <imgui.h>
+
 #include <deque>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "session/session.h"
 #include "viewer/camera_views.h"
 #include "viewer/gui_renderer.h"
 #include "viewer/material_edits.h"
+#include "viewer/memory.h"
 #include "viewer/navigator.h"
 #include "viewer/picking.h"
 #include "viewer/scene_area.h"
@@ -37,6 +41,7 @@ struct ViewerSetup {
   std::vector<std::filesystem::path> bundled;  ///< scenes that the panel offers
   SolveOptions options;
   DisplaySettings settings;
+  std::filesystem::path memory;  ///< the folder of what is remembered; empty: nothing is
   std::vector<ScriptLine> script;
   std::string script_name;
   /// Asks the window for another size [px]; may be empty.
@@ -100,8 +105,8 @@ class Viewer {
   void input() { gui_frames_ = kFramesAfterInput; }
   /// A key went down that no text field wants.
   void key(int key, bool ctrl);
-  /// Size of the GUI: 1 is a font of 15 px.
-  void setScale(double scale);
+  /// Of the screen, for a GUI of the usual size: 1 is a font of 15 px.
+  void setScreenScale(double scale);
   bool closing() const { return closing_; }
   /// Ends the session, once nothing more is to be shown: waits for one step at most, and for what is still to
   /// be saved. Only exitCode() may be called afterwards.
@@ -128,6 +133,11 @@ class Viewer {
   const std::shared_ptr<const Snapshot>& shownSnapshot() const { return scene_.snapshot(); }
   bool drawingScene() const { return scene_.drawing(); }
   double scale() const { return scale_; }
+  /// Size of the GUI; a screen of another scale changes it with itself.
+  void setScale(double scale);
+  Memory& memory() { return memory_; }
+  /// Opens and closes the panel's sections as they were, and remembers how they are now.
+  void followSections(ImGuiStorage& sections);
   double exposure() const { return scene_.exposure(); }
   Rates rates() const;
   double frameMilliseconds() const { return 1000 * frame_cost_; }
@@ -256,6 +266,11 @@ class Viewer {
   SceneDisplay::Wanted wanted() const;
   std::shared_ptr<const Snapshot> rivalSnapshot() const;
   bool frame();
+  void applyScale();
+  bool recallCamera();
+  void rememberCamera(const SessionState& state);
+  void recallPanel();
+  void rememberPanel();
   bool drawScene(double now, double deadline);
   void paint(GLuint framebuffer, int width, int height, int scene_width, bool gui);
   void capture(const Capture& wanted, int width, int height, int scene_width);
@@ -275,7 +290,13 @@ class Viewer {
   ViewerState ui_;
   MaterialEdits edits_;
   std::optional<std::uint64_t> opening_ = 0;  // another scene than edits_ are of: the epoch before it
-  double scale_ = 0;
+  double scale_ = 0, screen_scale_ = 1, relative_scale_ = 1;
+
+  Memory memory_;
+  std::optional<Camera> found_camera_;  // the automatic one, which need not be remembered
+  bool camera_from_memory_ = true;      // where there is one, for the scene that is framed next
+  bool sections_restored_ = false;
+  std::vector<std::pair<ImGuiID, int>> sections_;
 
   // Frames.
   int gui_frames_ = kFramesAfterInput;

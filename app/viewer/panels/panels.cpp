@@ -352,6 +352,7 @@ void buildSidePanel(Viewer& viewer, int left) {
   head(viewer);
   ImGui::Separator();
   ImGui::BeginChild("sections");
+  viewer.followSections(*ImGui::GetStateStorage());
   warningsSection(viewer);
   pickedSection(viewer);
   probesSection(viewer);
