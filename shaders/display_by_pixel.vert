@@ -9,7 +9,7 @@ layout(location = 4) in vec3 ambient;
 layout(location = 5) in vec3 extra;  // what the mode shows besides the light: unshot, bounces, residual or the reference's reflected light
 
 uniform mat4 view_projection;
-uniform vec3 eye;
+uniform vec4 eye;                 // homogeneous: at infinity where sights are parallel
 uniform bool edges;               // lines: pulled to the eye a little, clipped where their side faces away
 uniform float ambient_weight;     // 0 or 1
 uniform samplerBuffer sides;      // per side: reflectance, emission
@@ -22,7 +22,7 @@ flat out vec3 emission;
 out float gl_ClipDistance[1];
 
 void main() {
-  vec3 to_eye = eye - position;
+  vec3 to_eye = eye.xyz - eye.w * position;
   // Within half a pixel depth grows by 1 / cosine: where a side is seen nearly edge-on its lines need more.
   float cosine = dot(normal, to_eye) / max(length(to_eye), 1e-30);
   float pull = clamp(0.0007 / max(cosine, 1e-3), 0.001, 0.01);

@@ -33,6 +33,11 @@ class ViewArguments {
     command.add("--display", display_, "MODE",
                 "What is shown at first: " + keysOf(displayModes(), false) + " (default radiosity)",
                 keyOf(displayModes(), false));
+    command.add(
+        "--memory", memory_, "DIR",
+        "Remember cameras, scenes and the panel in this folder, with a script too; none: nowhere (default: "
+        "$XDG_STATE_HOME/unshot or ~/.local/state/unshot, and with a script nowhere)",
+        fileName());
     saving_.add(command, SolverUse::kView);
   }
 
@@ -59,6 +64,11 @@ class ViewArguments {
     if (!script_.empty()) {
       setup.script = readScript(script_);
       setup.script_name = script_;
+    }
+    if (!memory_.empty()) {
+      setup.memory = memory_ == "none" ? "" : memory_;
+    } else if (script_.empty()) {
+      setup.memory = Memory::usualFolder();
     }
     useShaderDir(solver_.shaderDir());
     checkScene(setup.scene);
@@ -115,7 +125,7 @@ class ViewArguments {
 
   SolverArguments solver_;
   SavingArguments saving_;
-  std::string scene_, script_, size_, display_ = "radiosity";
+  std::string scene_, script_, size_, memory_, display_ = "radiosity";
 };
 
 }  // namespace

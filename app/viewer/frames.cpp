@@ -1,8 +1,6 @@
 // The frames of the viewer: when there is something to draw, how much of it at a time, and drawing it.
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -60,47 +58,9 @@ bool Viewer::mayBeSharpened(double now) const {
          !navigator_.moving() && now >= last_motion_ + kRestSeconds;
 }
 
-void Viewer::navigate(double seconds) {
-  const ImGuiIO& io = ImGui::GetIO();
-  const Camera before = navigator_.camera();
-  // What the mouse moved in the frame of a click, it moved before.
-  const bool clicked = std::any_of(std::begin(io.MouseClicked), std::end(io.MouseClicked), std::identity());
-  if (!io.WantCaptureMouse && !clicked && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
-    const glm::dvec2 motion(io.MouseDelta.x, io.MouseDelta.y);
-    if (io.MouseDown[ImGuiMouseButton_Middle] || (io.MouseDown[ImGuiMouseButton_Left] && io.KeyShift)) {
-      navigator_.pan(motion, scene_height_);
-    } else if (io.MouseDown[ImGuiMouseButton_Left]) {
-      navigator_.orbit(motion, scene_height_);
-    } else if (io.MouseDown[ImGuiMouseButton_Right]) {
-      navigator_.look(motion, scene_height_);
-    }
-  }
-  if (!io.WantCaptureMouse && io.MouseWheel != 0) {
-    if (io.MouseDown[ImGuiMouseButton_Right]) {
-      navigator_.scaleSpeed(std::pow(1.25, io.MouseWheel));
-      notice("flying " + std::string(io.MouseWheel > 0 ? "faster" : "slower"));
-    } else {
-      navigator_.zoom(io.MouseWheel);
-    }
-  }
-  glm::dvec3 direction(0.0);
-  if (!io.WantTextInput && !io.KeyCtrl) {
-    const auto axis = [&](int plus, int minus) {
-      return (io.KeysDown[plus] ? 1.0 : 0.0) - (io.KeysDown[minus] ? 1.0 : 0.0);
-    };
-    direction = {axis('D', 'A'), axis('E', 'Q'), axis('W', 'S')};
-  }
-  navigator_.fly(direction, io.KeyShift);
-  navigator_.advance(seconds);
-  pickClicked();
-  const Camera& after = navigator_.camera();
-  if (before.eye != after.eye || before.at != after.at) {
-    last_motion_ = last_frame_;
-  }
-}
-
 /// Looks for a camera, where one is wanted. Returns whether it was found.
 bool Viewer::frame() {
+  if (recallCamera()) return true;
   if (frame_wanted_ && scene_.snapshot() == state_->snapshot && state_->snapshot &&
       (state_->measures.shots > 0 || idle(state_->phase))) {
     frame_wanted_ = false;
@@ -110,7 +70,10 @@ bool Viewer::frame() {
   const std::optional<Camera> camera = scene_.continueFraming(kSliceSeconds);
   if (!camera) return false;
   const Mesh& mesh = *scene_.snapshot()->mesh;
-  navigator_.reset(*camera, {mesh.bounds_min, mesh.bounds_max});
+  const Bounds bounds{mesh.bounds_min, mesh.bounds_max};
+  navigator_.reset(
+      navigator_.camera().orthographic ? parallelCamera(*camera, bounds, pictureAspect()) : *camera, bounds);
+  found_camera_ = navigator_.camera();
   scene_.snapExposure();
   last_motion_ = last_frame_;
   input();

@@ -149,10 +149,10 @@ glm::dvec3 rounded(const glm::dvec3& point, const Mesh& mesh) {
 
 }  // namespace
 
-void Picking::pick(const LaneState& state, const glm::dvec3& eye, const glm::dvec3& direction) {
+void Picking::pick(const LaneState& state, const glm::dvec3& from, const glm::dvec3& direction) {
   picked_.reset();
   if (!state.snapshot) return;
-  eye_ = eye + state.snapshot->mesh->frame_origin;
+  from_ = from + state.snapshot->mesh->frame_origin;
   direction_ = direction;
   picked_.emplace();
   place(state);
@@ -199,7 +199,7 @@ void Picking::follow(const LaneState& state) {
 /// What is picked, on the state's mesh.
 void Picking::place(const LaneState& state) {
   const Mesh& mesh = *state.snapshot->mesh;
-  const std::optional<Pick> found = pickAlong(mesh, eye_ - mesh.frame_origin, direction_);
+  const std::optional<Pick> found = pickAlong(mesh, from_ - mesh.frame_origin, direction_);
   if (!found) {
     picked_.reset();
     return;

@@ -53,7 +53,7 @@ class Picking {
  public:
   /// Picks what the state's mesh has along the ray (in its frame; `direction` of unit length); nothing is
   /// picked where there is nothing.
-  void pick(const LaneState& state, const glm::dvec3& eye, const glm::dvec3& direction);
+  void pick(const LaneState& state, const glm::dvec3& from, const glm::dvec3& direction);
   void unpick() { picked_.reset(); }
   const std::optional<PickedPoint>& picked() const { return picked_; }
   /// Throws Error (kUsage) where nothing is.
@@ -79,7 +79,7 @@ class Picking {
   void place(const LaneState& state);
 
   std::optional<PickedPoint> picked_;
-  glm::dvec3 eye_{0.0}, direction_{0.0};  // in the file's coordinates
+  glm::dvec3 from_{0.0}, direction_{0.0};  // in the file's coordinates
   std::vector<PinnedProbe> pinned_;
   // What the points are placed on.
   std::uint64_t cut_ = 0;  // of the mesh

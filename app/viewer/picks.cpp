@@ -23,17 +23,24 @@ void Viewer::pickClicked() {
       io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] > still * still)
     return;
   const ImVec2 mouse = io.MouseClickedPos[ImGuiMouseButton_Left];
-  const auto left = static_cast<float>(
-      split.right > 0 && mouse.x >= static_cast<float>(split.right_at) ? split.right_at : 0);
-  const int width = left > 0 ? split.right : split.left;
-  const glm::dvec2 at((mouse.x - left) / static_cast<float>(width),
-                      mouse.y / static_cast<float>(scene_height_));
-  if (at.x >= 0 && at.x <= 1 && at.y >= 0 && at.y <= 1) pickAt(markedCamera(), width, at);
+  if (const auto place = placeUnder({mouse.x, mouse.y})) pickAt(markedCamera(), place->width, place->at);
+}
+
+std::optional<Viewer::PicturePlace> Viewer::placeUnder(const glm::dvec2& mouse) const {
+  const SceneSplit split = splitScene(scene_width_, state_->rival.has_value());
+  const bool second = split.right > 0 && mouse.x >= split.right_at;
+  const int left = second ? split.right_at : 0, width = second ? split.right : split.left;
+  if (width <= 0 || scene_height_ <= 0) return std::nullopt;
+  const glm::dvec2 at((mouse.x - left) / width, mouse.y / scene_height_);
+  if (!(at.x >= 0 && at.x <= 1 && at.y >= 0 && at.y <= 1)) return std::nullopt;
+  return PicturePlace{width, at};
 }
 
 void Viewer::pickAt(const Camera& camera, int width, const glm::dvec2& at) {
   const double aspect = static_cast<double>(width) / scene_height_;
-  picking_.pick(*state_, camera.eye, sightAt(camera, aspect, at));
+  const Mesh& mesh = *state_->snapshot->mesh;
+  const Sight sight = sightAt(camera, aspect, {mesh.bounds_min, mesh.bounds_max}, at);
+  picking_.pick(*state_, sight.from, sight.along);
   if (const auto& point = picking_.picked())
     ui_.material = state_->snapshot->mesh->surfaces[point->pick.surface].material;
   input();

@@ -17,13 +17,9 @@ constexpr std::size_t kFewestPieces = 10'000;
 constexpr std::size_t kFewestRows = 64;
 constexpr std::size_t kFewestBytes = 1 << 20;
 
-bool same(const Camera& a, const Camera& b) {
-  return a.eye == b.eye && a.at == b.at && a.up == b.up && a.fov_deg == b.fov_deg;
-}
-
 bool sameSamples(const SceneDisplay::Wanted& a, const SceneDisplay::Wanted& b) {
   const ViewOptions &va = a.settings.view, &vb = b.settings.view;
-  return same(a.camera, b.camera) && va.display == vb.display && va.ambient == vb.ambient &&
+  return a.camera == b.camera && va.display == vb.display && va.ambient == vb.ambient &&
          va.light == vb.light && va.reference == vb.reference && a.width == b.width && a.height == b.height &&
          a.samples == b.samples;
 }

@@ -39,10 +39,12 @@ Viewer::Viewer(ViewerSetup setup)
       scene_(*setup_.display),
       session_(setup_.session),
       state_(session_.latest()),
+      memory_(setup_.memory),
       script_(setup_.script) {
   ui_.options = setup_.options;
   ui_.settings = setup_.settings;
-  setScale(1);
+  recallPanel();
+  applyScale();
   if (!script_.empty()) hold_.emplace(session_);
   if (!setup_.scene.empty()) session_.open(setup_.scene, ui_.options, std::move(setup_.saved));
 }
@@ -50,6 +52,17 @@ Viewer::Viewer(ViewerSetup setup)
 Viewer::~Viewer() = default;
 
 void Viewer::setScale(double scale) {
+  relative_scale_ = scale / screen_scale_;
+  applyScale();
+}
+
+void Viewer::setScreenScale(double scale) {
+  screen_scale_ = scale;
+  applyScale();
+}
+
+void Viewer::applyScale() {
+  const double scale = std::clamp(screen_scale_ * relative_scale_, 0.5, 4.0);
   if (scale == scale_) return;
   scale_ = scale;
   applyTheme(ImGui::GetIO(), ImGui::GetStyle(), static_cast<float>(scale));
@@ -84,7 +97,11 @@ void Viewer::takeState(double now) {
     if (script_.empty()) exit_code_ = 0;
     if (setup_.title) setup_.title(state_->facts->scene_name + " \u2013 Unshot");
     forgetOldLight();
-    frame_wanted_ = frame_wanted_ || state_->facts->scene_path != framed_scene_;
+    if (state_->facts->scene_path != framed_scene_) {
+      rememberCamera(*before);
+      frame_wanted_ = camera_from_memory_ = true;
+      memory_.noteScene(state_->facts->scene_path);
+    }
   }
   takeMaterials();
   picking_.follow(*state_);
@@ -136,7 +153,7 @@ void Viewer::perform(std::string_view action, const std::string& argument) {
 }
 
 void Viewer::key(int key, bool ctrl) {
-  if (const Action* action = actionOfKey(key, ctrl)) perform(action->key);
+  if (const Action* action = actionOfKey(key, ctrl)) perform(action->key, action->argumentOfKey(key));
 }
 
 /// Shown, said on the terminal, and remembered for the exit code where nobody may be looking.
@@ -277,6 +294,8 @@ void Viewer::noteSaved(const SessionState& before) {
 
 void Viewer::finish() {
   closing_ = true;
+  rememberCamera(*state_);
+  rememberPanel();
   session_.close();
   takeState(wallSeconds());
 }
@@ -291,22 +310,6 @@ Error Viewer::rescue(const Error& error) {
   return Error(error.kind(), error.what(), error.where(),
                "unshot view " + state_->facts->scene_path.string() + " --resume " + path.string() +
                    ", which goes on from what was shot");
-}
-
-void Viewer::frameScene() { frame_wanted_ = true; }
-
-void Viewer::setCamera(const glm::dvec3& eye, const glm::dvec3& at, std::optional<double> fov_deg) {
-  if (!scene_.snapshot() && !state_->snapshot) {
-    throw Error(ErrorKind::kUsage, "there is no scene to look at yet", {}, "wait for it first: wait shots 1");
-  }
-  const Mesh& mesh = *state_->snapshot->mesh;
-  Camera camera = navigator_.camera();
-  camera.eye = eye - mesh.frame_origin;
-  camera.at = at - mesh.frame_origin;
-  if (fov_deg) camera.fov_deg = *fov_deg;
-  navigator_.reset(camera, {mesh.bounds_min, mesh.bounds_max});
-  frame_wanted_ = false;
-  framed_scene_ = state_->facts->scene_path;
 }
 
 void Viewer::resizeWindow(int width, int height) {

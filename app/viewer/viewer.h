@@ -10,17 +10,22 @@
 // once.
 #pragma once
 
+#include <imgui.h>
+
 #include <deque>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "session/session.h"
+#include "viewer/camera_views.h"
 #include "viewer/gui_renderer.h"
 #include "viewer/material_edits.h"
+#include "viewer/memory.h"
 #include "viewer/navigator.h"
 #include "viewer/picking.h"
 #include "viewer/scene_area.h"
@@ -36,6 +41,7 @@ struct ViewerSetup {
   std::vector<std::filesystem::path> bundled;  ///< scenes that the panel offers
   SolveOptions options;
   DisplaySettings settings;
+  std::filesystem::path memory;  ///< the folder of what is remembered; empty: nothing is
   std::vector<ScriptLine> script;
   std::string script_name;
   /// Asks the window for another size [px]; may be empty.
@@ -99,8 +105,8 @@ class Viewer {
   void input() { gui_frames_ = kFramesAfterInput; }
   /// A key went down that no text field wants.
   void key(int key, bool ctrl);
-  /// Size of the GUI: 1 is a font of 15 px.
-  void setScale(double scale);
+  /// Of the screen, for a GUI of the usual size: 1 is a font of 15 px.
+  void setScreenScale(double scale);
   bool closing() const { return closing_; }
   /// Ends the session, once nothing more is to be shown: waits for one step at most, and for what is still to
   /// be saved. Only exitCode() may be called afterwards.
@@ -127,6 +133,11 @@ class Viewer {
   const std::shared_ptr<const Snapshot>& shownSnapshot() const { return scene_.snapshot(); }
   bool drawingScene() const { return scene_.drawing(); }
   double scale() const { return scale_; }
+  /// Size of the GUI; a screen of another scale changes it with itself.
+  void setScale(double scale);
+  Memory& memory() { return memory_; }
+  /// Opens and closes the panel's sections as they were, and remembers how they are now.
+  void followSections(ImGuiStorage& sections);
   double exposure() const { return scene_.exposure(); }
   Rates rates() const;
   double frameMilliseconds() const { return 1000 * frame_cost_; }
@@ -162,8 +173,15 @@ class Viewer {
   void forget();
   /// Finds the automatic camera again.
   void frameScene();
-  /// In the coordinates of the scene's file.
+  /// In the coordinates of the scene's file; projection and upwards stay.
   void setCamera(const glm::dvec3& eye, const glm::dvec3& at, std::optional<double> fov_deg);
+  /// All of the scene along an axis.
+  void viewAlong(const AxisView& view);
+  /// In the coordinates of the scene's file; nothing without a scene.
+  std::optional<Camera> cameraInFile() const;
+  std::optional<Bounds> boundsInFile() const;
+  /// To the clipboard: as lines of a script, or as options of unshot solve.
+  void copyCamera(bool options);
   Navigator& navigator() { return navigator_; }
   void resizeWindow(int width, int height);
   const Picking& picking() const { return picking_; }
@@ -212,6 +230,11 @@ class Viewer {
     std::size_t gui;      ///< fingerprint
     bool operator==(const PaintedLook&) const = default;
   };
+  /// A place in one of the pictures of the scene, in units of its size.
+  struct PicturePlace {
+    int width;  ///< of the picture [px]
+    glm::dvec2 at;
+  };
   struct RatePoint {
     double time;
     std::uint64_t shots, rows;
@@ -227,6 +250,11 @@ class Viewer {
   void forgetOldLight();
   void fail(const Error& error);
   void navigate(double seconds);
+  void zoomAtMouse(double notches);
+  void placeCamera(const Camera& camera);
+  double pictureAspect() const;
+  const Mesh& requiredMesh() const;
+  std::optional<PicturePlace> placeUnder(const glm::dvec2& mouse) const;
   void pickClicked();
   void pickAt(const Camera& camera, int width, const glm::dvec2& at);
   bool mayBeSharpened(double now) const;
@@ -238,6 +266,11 @@ class Viewer {
   SceneDisplay::Wanted wanted() const;
   std::shared_ptr<const Snapshot> rivalSnapshot() const;
   bool frame();
+  void applyScale();
+  bool recallCamera();
+  void rememberCamera(const SessionState& state);
+  void recallPanel();
+  void rememberPanel();
   bool drawScene(double now, double deadline);
   void paint(GLuint framebuffer, int width, int height, int scene_width, bool gui);
   void capture(const Capture& wanted, int width, int height, int scene_width);
@@ -257,7 +290,13 @@ class Viewer {
   ViewerState ui_;
   MaterialEdits edits_;
   std::optional<std::uint64_t> opening_ = 0;  // another scene than edits_ are of: the epoch before it
-  double scale_ = 0;
+  double scale_ = 0, screen_scale_ = 1, relative_scale_ = 1;
+
+  Memory memory_;
+  std::optional<Camera> found_camera_;  // the automatic one, which need not be remembered
+  bool camera_from_memory_ = true;      // where there is one, for the scene that is framed next
+  bool sections_restored_ = false;
+  std::vector<std::pair<ImGuiID, int>> sections_;
 
   // Frames.
   int gui_frames_ = kFramesAfterInput;
@@ -272,6 +311,13 @@ class Viewer {
 
   Picking picking_;
   std::optional<glm::dvec2> pick_wanted_;
+  /// What the wheel goes to, as long as only the wheel moves.
+  struct ZoomTarget {
+    glm::dvec2 mouse;
+    Camera camera;
+    glm::dvec3 point;
+  };
+  std::optional<ZoomTarget> zoom_target_;
 
   // The scene shown.
   std::filesystem::path framed_scene_;  // the camera is for this one

@@ -36,7 +36,8 @@ void setCallbacks(GLFWwindow* window) {
   glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int) { viewerOf(w).input(); });
   glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { viewerOf(w).damaged(); });
   glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { viewerOf(w).damaged(); });
-  glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float x, float) { viewerOf(w).setScale(x); });
+  glfwSetWindowContentScaleCallback(window,
+                                    [](GLFWwindow* w, float x, float) { viewerOf(w).setScreenScale(x); });
   glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
     if (count > 0) viewerOf(w).perform("open", paths[0]);
   });
@@ -116,7 +117,7 @@ int runWindow(ViewerSetup setup, const WindowOptions& wanted) {
       const GuiInput input(window);
       float scale = 1;
       glfwGetWindowContentScale(window, &scale, nullptr);
-      viewer.setScale(std::clamp(static_cast<double>(scale), 0.5, 4.0));
+      viewer.setScreenScale(scale);
       try {
         runLoop(viewer, window);
       } catch (const Error& error) {

@@ -65,11 +65,11 @@ void SceneView::useDisplay(const gl::Program& program, const glm::mat4& matrix, 
   const gl::Functions& fn = context_.functions();
   const DisplayMode& mode = displayMode(options.display);
   program.use();
-  const glm::vec3 eye(camera.eye);
+  const glm::vec4 eye = homogeneousEye(camera, buffers_.bounds());
   // The ambient term is no part of any solution, so that none is compared with it.
   const bool with_ambient = options.ambient && options.light.all() && mode.quantity != Quantity::kDifference;
   fn.UniformMatrix4fv(program.uniform("view_projection"), 1, GL_FALSE, glm::value_ptr(matrix));
-  fn.Uniform3fv(program.uniform("eye"), 1, glm::value_ptr(eye));
+  fn.Uniform4fv(program.uniform("eye"), 1, glm::value_ptr(eye));
   fn.Uniform1f(program.uniform("ambient_weight"), with_ambient ? 1.0f : 0.0f);
   fn.Uniform1i(program.uniform("quantity"), static_cast<int>(mode.quantity));
   fn.Uniform1i(program.uniform("per_element"), mode.per_element);
@@ -114,8 +114,9 @@ DrawnPieces SceneView::drawPieces(const Camera& camera, double aspect, const Fra
     const gl::Program& program = by_pixel ? by_pixel_program_ : display_program_;
     useDisplay(program, matrix, camera, options, element_light);
     fn.Uniform1i(program.uniform("edges"), 0);
-    const TrianglesInView seen = buffers_.triangleBlocks().inView(
-        matrix, glm::vec3(camera.eye), {drawn.end, std::min(pieces.end, triangles)}, pieces.most);
+    const TrianglesInView seen =
+        buffers_.triangleBlocks().inView(matrix, homogeneousEye(camera, buffers_.bounds()),
+                                         {drawn.end, std::min(pieces.end, triangles)}, pieces.most);
     for (const TriangleRun& run : seen.runs) {
       fn.Uniform1i(program.uniform("first_triangle"), static_cast<GLint>(run.first));
       draw(GL_TRIANGLES, buffers_.triangles(), 3, run.first, run.end);

@@ -45,10 +45,10 @@ TriangleBlocks::TriangleBlocks(const Mesh& mesh) {
   }
 }
 
-bool TriangleBlocks::isInView(const Block& block, const glm::mat4& view_projection, const glm::vec3& eye) {
+bool TriangleBlocks::isInView(const Block& block, const glm::mat4& view_projection, const glm::vec4& eye) {
   bool left = true, right = true, below = true, above = true, behind = true, away = true;
   for (int k = 0; k < 8; ++k) {
-    const glm::vec3 p = block.corner(k), to_eye = eye - p;
+    const glm::vec3 p = block.corner(k), to_eye = glm::vec3(eye) - eye.w * p;
     const glm::vec4 clip = view_projection * glm::vec4(p, 1.0f);
     const float margin = kRounding * (std::abs(clip.x) + std::abs(clip.y) + std::abs(clip.w));
     left = left && clip.x + clip.w < -margin;
@@ -61,7 +61,7 @@ bool TriangleBlocks::isInView(const Block& block, const glm::mat4& view_projecti
   return !(left || right || below || above || behind || away);
 }
 
-TrianglesInView TriangleBlocks::inView(const glm::mat4& view_projection, const glm::vec3& eye,
+TrianglesInView TriangleBlocks::inView(const glm::mat4& view_projection, const glm::vec4& eye,
                                        const TriangleRun& among, std::size_t most) const {
   TrianglesInView out{{}, among.first, 0};
   while (out.end < among.end && out.count < most) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -30,8 +31,8 @@ class TriangleBlocks {
   explicit TriangleBlocks(const Mesh& mesh);
 
   /// Those of `among` that may be seen, at most so many: all but blocks that lie beside the view or behind
-  /// the eye, and flat ones that face away.
-  TrianglesInView inView(const glm::mat4& view_projection, const glm::vec3& eye, const TriangleRun& among,
+  /// the eye (homogeneousEye of the camera), and flat ones that face away.
+  TrianglesInView inView(const glm::mat4& view_projection, const glm::vec4& eye, const TriangleRun& among,
                          std::size_t most = ~std::size_t{0}) const;
 
  private:
@@ -42,7 +43,7 @@ class TriangleBlocks {
       return {k & 1 ? most.x : least.x, k & 2 ? most.y : least.y, k & 4 ? most.z : least.z};
     }
   };
-  static bool isInView(const Block& block, const glm::mat4& view_projection, const glm::vec3& eye);
+  static bool isInView(const Block& block, const glm::mat4& view_projection, const glm::vec4& eye);
 
   std::vector<Block> blocks_;
 };

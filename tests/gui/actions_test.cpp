@@ -33,11 +33,15 @@ TEST(Actions, KeysAndShortcutsAreUnique) {
     EXPECT_FALSE(action.help.empty()) << action.key;
     EXPECT_EQ(&findAction(action.key), &action);
     if (action.shortcut.key == 0) continue;
-    EXPECT_TRUE(shortcuts.insert({action.shortcut.key, action.shortcut.ctrl}).second) << action.key;
+    const std::size_t count = static_cast<std::size_t>(action.shortcut.count);
+    EXPECT_TRUE(count == 1 || count == action.choices().size()) << action.key;
+    for (int key = action.shortcut.key; key < action.shortcut.key + action.shortcut.count; ++key) {
+      EXPECT_TRUE(shortcuts.insert({key, action.shortcut.ctrl}).second) << action.key;
+      EXPECT_EQ(actionOfKey(key, action.shortcut.ctrl), &action);
+      EXPECT_EQ(checkArgument(action, action.argumentOfKey(key)), "");
+    }
     EXPECT_FALSE(action.shortcut.text.empty()) << action.key;
     EXPECT_EQ(action.shortcut.text.starts_with("Ctrl+"), action.shortcut.ctrl) << action.key;
-    EXPECT_FALSE(action.needsArgument()) << action.key << " has a key, which gives no argument";
-    EXPECT_EQ(actionOfKey(action.shortcut.key, action.shortcut.ctrl), &action);
     EXPECT_EQ(
         std::string_view("WASDQE").find(static_cast<char>(action.shortcut.key)) != std::string_view::npos,
         action.shortcut.ctrl && (action.key == "quit" || action.key == "save-solve"))
@@ -80,6 +84,12 @@ const std::map<std::string_view, std::string>& validArguments() {
       {"exposure", "-1.5"},
       {"lock-exposure", "on"},
       {"camera", "278,273,-800,278,273,0,39"},
+      {"view", "top"},
+      {"projection", "orthographic"},
+      {"fov", "50"},
+      {"speed", "2"},
+      {"camera-preset", "cornell"},
+      {"copy-camera", "options"},
       {"panel", "off"},
       {"help", "on"},
       {"notes", "on"},

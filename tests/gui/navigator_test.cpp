@@ -149,6 +149,34 @@ TEST_P(EveryPlace, ZoomIsASeventhOfTheWayAndGoesBack) {
   EXPECT_LT(glm::length(forward(navigator_.camera()) - forward(before)), 1e-9);
 }
 
+TEST_P(EveryPlace, ZoomKeepsThePointUnderTheMouse) {
+  for (const bool parallel : {false, true}) {
+    Navigator navigator = navigatorAt(GetParam());
+    navigator.setOrthographic(parallel);
+    const glm::dvec3 point = navigator.camera().at + 0.2 * size() * viewBasis(navigator.camera()).right +
+                             0.3 * size() * viewBasis(navigator.camera()).up +
+                             0.4 * size() * viewBasis(navigator.camera()).forward;
+    const glm::dvec2 place = *placeInPicture(navigator.camera(), 1, point);
+    const glm::dvec3 sight = forward(navigator.camera());
+    for (const double notches : {1.0, 2.0, 4.0, -3.0, 7.0, -14.0}) {
+      navigator.zoom(notches, point);
+      EXPECT_LT(glm::length(*placeInPicture(navigator.camera(), 1, point) - place), 1e-9);
+      EXPECT_LT(glm::length(forward(navigator.camera()) - sight), 1e-9);
+    }
+  }
+}
+
+TEST_P(EveryPlace, ParallelSightsAreZoomedByFlyingAhead) {
+  navigator_.setOrthographic(true);
+  const Camera before = navigator_.camera();
+  navigator_.fly({0, 0, 1}, false);
+  for (int i = 0; i < 60; ++i) navigator_.advance(kFrame);
+  EXPECT_EQ(navigator_.camera().at, before.at);
+  EXPECT_LT(distance(navigator_.camera()), 0.9 * distance(before));
+  for (int i = 0; i < 6000; ++i) navigator_.advance(kFrame);
+  EXPECT_GT(distance(navigator_.camera()), 0.9e-4 * size());
+}
+
 TEST_P(EveryPlace, SpeedFollowsTheSceneAndStaysWithinReason) {
   EXPECT_NEAR(navigator_.speed(), std::sqrt(3.0) * size() / 5, 1e-9 * size());
   const double usual = navigator_.speed();

@@ -25,6 +25,7 @@ class LiveViewer {
     std::filesystem::path scene;
     SolveOptions solve;
     std::string script;
+    std::filesystem::path memory;
     int width = 320, height = 240;
   };
 
@@ -41,6 +42,7 @@ class LiveViewer {
     setup.scene = options.scene;
     setup.options = options.solve;
     setup.settings.view.display = "radiosity";
+    setup.memory = options.memory;
     std::istringstream script(options.script);
     setup.script = parseScript(script, "script");
     setup.resize = [this](int width, int height) { resize(width, height); };

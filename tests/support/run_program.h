@@ -47,6 +47,8 @@ class ProgramRun {
       redirect("/dev/null", O_RDONLY, STDIN_FILENO);
       redirect(out.c_str(), O_WRONLY | O_CREAT, STDOUT_FILENO);
       redirect(err.c_str(), O_WRONLY | O_CREAT, STDERR_FILENO);
+      // What a viewer remembers is none of other runs' business.
+      ::setenv("XDG_STATE_HOME", (streams_ / "state").c_str(), 1);
       limit(RLIMIT_AS, limits.memory);
       limit(RLIMIT_FSIZE, limits.file_size);
       // Opened as who runs the tests: others may not reach it by its path.

@@ -54,6 +54,8 @@ Scene roomAndPlate() {
   return b.finish();
 }
 
+Bounds boundsOf(const Mesh& mesh) { return {mesh.bounds_min, mesh.bounds_max}; }
+
 TEST(Pick, FindsTheElementUnderEachPixelOfTheCornellBox) {
   const Mesh mesh = buildMesh(publishedCornellBox(), {2000, {}, false});
   // The camera of the published measurements, 39.3 degrees wide, square.
@@ -66,7 +68,7 @@ TEST(Pick, FindsTheElementUnderEachPixelOfTheCornellBox) {
   for (int k = 0; k < 300; ++k) {
     const double x = dice.between(0.03, 0.97), y = dice.between(0.03, 0.97);  // the box fills 0.022 to 0.978
     const glm::dvec2 at(x, y);
-    const auto pick = pickAlong(mesh, camera.eye, sightAt(camera, 1, at));
+    const auto pick = pickAlong(mesh, camera.eye, sightAt(camera, 1, boundsOf(mesh), at).along);
     ASSERT_TRUE(pick) << at.x << ", " << at.y;
     EXPECT_LT(glm::dot(pick->normal, pick->position - camera.eye), 0);
     const auto back = placeInPicture(camera, 1, pick->position);
@@ -80,7 +82,7 @@ TEST(Pick, FindsTheElementUnderEachPixelOfTheCornellBox) {
   }
   EXPECT_EQ(found, 300);
   // The middle of the floor's front edge: y = 0 in the file.
-  const auto floor = pickAlong(mesh, camera.eye, sightAt(camera, 1, {0.5, 0.96}));
+  const auto floor = pickAlong(mesh, camera.eye, sightAt(camera, 1, boundsOf(mesh), {0.5, 0.96}).along);
   ASSERT_TRUE(floor);
   EXPECT_NEAR(floor->position.y + mesh.frame_origin.y, 0, 1e-9);
   EXPECT_LT(glm::length(floor->normal - glm::dvec3(0, 1, 0)), 1e-9);

@@ -30,7 +30,8 @@ std::size_t inParts(const Mesh& mesh, const View& view) {
   const std::size_t triangles = mesh.triangle_vertices.size() / 3;
   std::size_t count = 0;
   for (TrianglesInView part; part.end < triangles;) {
-    part = blocks.inView(view.matrix, glm::vec3(view.camera.eye), {part.end, triangles}, 700);
+    part = blocks.inView(view.matrix, homogeneousEye(view.camera, {mesh.bounds_min, mesh.bounds_max}),
+                         {part.end, triangles}, 700);
     EXPECT_LE(part.count, 700u);
     count += part.count;
   }
@@ -41,8 +42,8 @@ std::vector<char> drawn(const Mesh& mesh, const View& view) {
   const std::size_t triangles = mesh.triangle_vertices.size() / 3;
   std::vector<char> out(triangles);
   std::size_t last = 0;
-  const TrianglesInView all =
-      TriangleBlocks(mesh).inView(view.matrix, glm::vec3(view.camera.eye), {0, triangles});
+  const TrianglesInView all = TriangleBlocks(mesh).inView(
+      view.matrix, homogeneousEye(view.camera, {mesh.bounds_min, mesh.bounds_max}), {0, triangles});
   EXPECT_EQ(all.end, triangles);
   EXPECT_EQ(inParts(mesh, view), all.count);
   for (const TriangleRun& run : all.runs) {
@@ -53,6 +54,11 @@ std::vector<char> drawn(const Mesh& mesh, const View& view) {
               out.begin() + static_cast<std::ptrdiff_t>(run.end), 1);
   }
   return out;
+}
+
+glm::dvec3 wayToEye(const Mesh& mesh, const Camera& camera, const glm::dvec3& from) {
+  const glm::dvec4 eye(homogeneousEye(camera, {mesh.bounds_min, mesh.bounds_max}));
+  return glm::dvec3(eye) - eye.w * from;
 }
 
 bool isSeen(const glm::mat4& matrix, const glm::dvec3& p) {
@@ -73,6 +79,7 @@ TEST(TriangleBlocks, DrawAllThatAViewCanSee) {
       camera.eye = middle + size * dice.between(0, 0.7) * dice.direction();
       camera.at = middle + 0.3 * size * dice.direction();
       camera.fov_deg = dice.between(10, 100);
+      camera.orthographic = k % 4 == 3;
       const View view = viewOf(mesh, camera);
       const std::vector<char> is_drawn = drawn(mesh, view);
       for (std::size_t t = 0; t < is_drawn.size(); ++t) {
@@ -81,7 +88,7 @@ TEST(TriangleBlocks, DrawAllThatAViewCanSee) {
         glm::dvec3 p[3];
         for (std::size_t c = 0; c < 3; ++c)
           p[c] = glm::dvec3(mesh.vertices[mesh.triangle_vertices[3 * t + c]].position);
-        if (glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), camera.eye - p[0]) <= 0) continue;
+        if (glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), wayToEye(mesh, camera, p[0])) <= 0) continue;
         if (!isSeen(view.matrix, p[0]) && !isSeen(view.matrix, p[1]) &&
             !isSeen(view.matrix, (p[0] + p[1] + p[2]) / 3.0))
           continue;

@@ -143,6 +143,18 @@ std::string checkPlace(const std::string& text) {
   return fits ? "" : "'" + text + "' is no place X,Y in the picture: from 0,0 (left, top) to 1,1";
 }
 
+std::string checkAngle(const std::string& text) {
+  const std::optional<double> number = parseNumber(text);
+  return number && *number >= 1 && *number <= 170 ? "" : "'" + text + "' is no angle from 1 to 170 degrees";
+}
+
+std::string checkSpeed(const std::string& text) {
+  constexpr double kMost = Navigator::kSpeedRange;
+  const std::optional<double> number = parseNumber(text);
+  return number && *number >= 1 / kMost && *number <= kMost ? ""
+                                                            : "'" + text + "' is no number from 0.01 to 100";
+}
+
 std::string checkCamera(const std::string& text) {
   const std::vector<double> n = numbersOf(text);
   if (n.size() != 6 && n.size() != 7) return "'" + text + "' is no camera ex,ey,ez,ax,ay,az[,fov]";

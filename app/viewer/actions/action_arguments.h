@@ -72,6 +72,9 @@ std::optional<std::pair<int, int>> sizeOf(const std::string& text);
 /// X,Y, each from 0 to 1.
 std::string checkPlace(const std::string& text);
 
+/// An angle of view [degrees]; a factor of the speed of flight.
+std::string checkAngle(const std::string& text);
+std::string checkSpeed(const std::string& text);
 /// ex,ey,ez,ax,ay,az[,fov].
 std::string checkCamera(const std::string& text);
 /// Numbers between commas; none where one of them is no number.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/parse.h"
 #include "viewer/actions/action_groups.h"
 
 namespace unshot {
@@ -42,6 +43,18 @@ const Action& findAction(std::string_view key) {
   throw Error(ErrorKind::kUsage, "there is no action '" + std::string(key) + "'", {}, "one of: " + keys);
 }
 
+std::vector<std::string_view> Action::choices() const {
+  if (argument.find('|') == std::string_view::npos) return {};
+  std::string_view text = argument;
+  if (text.front() == '[') text = text.substr(1, text.size() - 2);
+  return splitParts(text, '|');
+}
+
+std::string Action::argumentOfKey(int pressed) const {
+  if (shortcut.count == 1) return {};
+  return std::string(choices()[static_cast<std::size_t>(pressed - shortcut.key)]);
+}
+
 std::string checkArgument(const Action& action, const std::string& argument) {
   if (action.argument.empty()) {
     return argument.empty() ? "" : "'" + std::string(action.key) + "' takes no argument";
@@ -55,7 +68,9 @@ const Action* actionOfKey(int key, bool ctrl) {
   if (key == GLFW_KEY_KP_ADD) key = GLFW_KEY_EQUAL;
   if (key == GLFW_KEY_KP_SUBTRACT) key = GLFW_KEY_MINUS;
   for (const Action& action : actions()) {
-    if (action.shortcut.key != 0 && action.shortcut.key == key && action.shortcut.ctrl == ctrl)
+    const Shortcut& shortcut = action.shortcut;
+    if (shortcut.key != 0 && key >= shortcut.key && key < shortcut.key + shortcut.count &&
+        shortcut.ctrl == ctrl)
       return &action;
   }
   return nullptr;

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace unshot {
 
@@ -15,13 +16,15 @@ struct Shortcut {
   int key = 0;
   bool ctrl = false;
   std::string_view text;  ///< as shown: "Ctrl+F12"
+  int count = 1;          ///< more: so many keys from this one on stand for the choices of the argument
 };
 
 struct Action {
-  std::string_view key;       ///< name in scripts
-  std::string_view argument;  ///< placeholder in help, "[N]" where it may be missing; empty: takes none
-  std::string_view help;      ///< one line
-  Shortcut shortcut;          ///< performs it without argument
+  std::string_view key;  ///< name in scripts
+  /// Placeholder in help, "[N]" where it may be missing, "a|b" for choices; empty: takes none.
+  std::string_view argument;
+  std::string_view help;  ///< one line
+  Shortcut shortcut;      ///< performs it without argument, or with one of its choices
   /// Throws Error (kUsage) for an argument that it cannot use.
   void (*run)(Viewer& viewer, const std::string& argument);
   /// Empty where the argument is one that run() may take, else what is wrong with it; for checking scripts
@@ -31,6 +34,10 @@ struct Action {
   bool when_settled = false;
 
   bool needsArgument() const { return !argument.empty() && argument.front() != '['; }
+  /// Of the argument; empty where it is no choice.
+  std::vector<std::string_view> choices() const;
+  /// What the key, one of the shortcut's, gives it.
+  std::string argumentOfKey(int pressed) const;
 };
 
 /// Actions of one matter, as lists show them.

@@ -11,6 +11,7 @@
 #include "render/display_modes.h"
 #include "solver/modes.h"
 #include "viewer/panels/bounce_panel.h"
+#include "viewer/panels/camera_panel.h"
 #include "viewer/panels/error_panel.h"
 #include "viewer/panels/false_colour_panel.h"
 #include "viewer/panels/materials_panel.h"
@@ -270,10 +271,6 @@ void displaySection(Viewer& viewer) {
   on = ui.settings.exposure_locked;
   if (ImGui::Checkbox("Keep this exposure", &on)) viewer.perform("lock-exposure", on ? "on" : "off");
   tooltip("L: otherwise it follows what is in view");
-  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("Reset view").x -
-                  2 * ImGui::GetStyle().FramePadding.x);
-  if (ImGui::Button("Reset view")) viewer.perform("frame");
-  tooltip("F: back to the camera chosen for the scene");
 }
 
 void figuresSection(Viewer& viewer) {
@@ -355,6 +352,7 @@ void buildSidePanel(Viewer& viewer, int left) {
   head(viewer);
   ImGui::Separator();
   ImGui::BeginChild("sections");
+  viewer.followSections(*ImGui::GetStateStorage());
   warningsSection(viewer);
   pickedSection(viewer);
   probesSection(viewer);
@@ -362,6 +360,7 @@ void buildSidePanel(Viewer& viewer, int left) {
   errorsSection(viewer);
   convergenceSection(viewer);
   displaySection(viewer);
+  cameraSection(viewer);
   materialsSection(viewer);
   bouncesSection(viewer);
   figuresSection(viewer);

@@ -1,0 +1,10 @@
+// The camera's part of the panel.
+#pragma once
+
+namespace unshot {
+
+class Viewer;
+
+void cameraSection(Viewer& viewer);
+
+}  // namespace unshot

@@ -1,0 +1,92 @@
+// What the viewer takes from its memory and gives to it: the scene's camera, the panel's look.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "base/parse.h"
+#include "viewer/viewer.h"
+
+namespace unshot {
+namespace {
+
+struct Switch {
+  const char* key;
+  bool ViewerState::*value;
+};
+
+/// Sections that actions open and close; the others are in the storage of ImGui.
+constexpr std::array<Switch, 3> kSwitches = {{{"notes", &ViewerState::notes},
+                                              {"left-out", &ViewerState::left_out},
+                                              {"materials", &ViewerState::materials}}};
+
+}  // namespace
+
+/// Places the camera that is remembered for a scene that came up, if there is one.
+bool Viewer::recallCamera() {
+  if (!frame_wanted_ || !camera_from_memory_ || !state_->snapshot || scene_.snapshot() != state_->snapshot)
+    return false;
+  camera_from_memory_ = false;
+  std::optional<Camera> camera = memory_.camera(state_->facts->scene_path);
+  if (!camera) return false;
+  const glm::dvec3& origin = state_->snapshot->mesh->frame_origin;
+  camera->eye -= origin;
+  camera->at -= origin;
+  placeCamera(*camera);
+  found_camera_.reset();
+  scene_.snapExposure();
+  last_motion_ = last_frame_;
+  input();
+  return true;
+}
+
+/// One that was found by itself is found again; it suits the window's shape then.
+void Viewer::rememberCamera(const SessionState& state) {
+  if (!state.snapshot || !state.facts || state.facts->scene_path != framed_scene_ || scene_.framing()) return;
+  std::optional<Camera> camera;
+  if (navigator_.camera() != found_camera_) {
+    camera = navigator_.camera();
+    camera->eye += state.snapshot->mesh->frame_origin;
+    camera->at += state.snapshot->mesh->frame_origin;
+  }
+  memory_.keepCamera(state.facts->scene_path, camera);
+}
+
+void Viewer::recallPanel() {
+  const std::string text = memory_.setting("scale").value_or("");
+  const std::optional<double> scale = parseNumber(text);
+  if (scale && *scale >= 0.1 && *scale <= 10) relative_scale_ = *scale;
+  for (const Switch& one : kSwitches) {
+    if (const auto value = memory_.setting(one.key)) ui_.*one.value = *value == "on";
+  }
+}
+
+void Viewer::rememberPanel() {
+  if (!memory_.on()) return;
+  char scale[32];
+  std::snprintf(scale, sizeof scale, "%.4g", relative_scale_);
+  memory_.keepSetting("scale", scale);
+  for (const Switch& one : kSwitches) memory_.keepSetting(one.key, ui_.*one.value ? "on" : "off");
+  std::string text;
+  for (const auto& [id, open] : sections_)
+    text += (text.empty() ? "" : " ") + std::to_string(id) + (open != 0 ? "+" : "-");
+  memory_.keepSetting("sections", text);
+}
+
+void Viewer::followSections(ImGuiStorage& sections) {
+  if (!memory_.on()) return;
+  if (!std::exchange(sections_restored_, true)) {
+    const std::string text = memory_.setting("sections").value_or("");
+    for (const std::string_view word : splitParts(text, ' ')) {
+      if (word.size() < 2) continue;
+      const std::optional<double> id = parseNumber(word.substr(0, word.size() - 1));
+      if (id && *id >= 0 && *id <= 0xffffffff)
+        sections.SetInt(static_cast<ImGuiID>(*id), word.back() == '+' ? 1 : 0);
+    }
+  }
+  sections_.clear();
+  for (const ImGuiStorage::ImGuiStoragePair& pair : sections.Data)
+    sections_.emplace_back(pair.key, pair.val_i);
+}
+
+}  // namespace unshot

@@ -1,0 +1,161 @@
+// The viewer's camera by actions, keys and the wheel.
+#include <gmock/gmock.h>
+
+#include <glm/geometric.hpp>
+
+#include "support/live_viewer.h"
+
+namespace unshot {
+namespace {
+
+using testing::HasSubstr;
+using testing_support::LiveViewer;
+
+class ViewerCamera : public testing::Test {
+ protected:
+  ViewerCamera() : live_(options()) {
+    EXPECT_TRUE(live_.untilPhase(SessionPhase::kConverged));
+    rest();
+    live_->perform("panel", "off");
+    rest();
+  }
+  static LiveViewer::Options options() {
+    LiveViewer::Options options;
+    options.scene = UNSHOT_SOURCE_DIR "/assets/cornell_box.obj";
+    options.solve.elements = 300;
+    options.solve.error = 0.1;
+    options.width = options.height = 300;
+    return options;
+  }
+  void rest() {
+    ASSERT_TRUE(live_.until([&] { return live_->nextFrame(0) > 1e30; }));
+    ASSERT_FALSE(live_->error()) << live_->error()->fullText();
+  }
+  void act(const std::string& action, const std::string& argument = {}) {
+    live_->perform(action, argument);
+    live_.draw();
+    ASSERT_FALSE(live_->error()) << live_->error()->fullText();
+  }
+  std::optional<glm::dvec2> placeOf(const glm::dvec3& in_file) {
+    return placeInPicture(*live_->cameraInFile(), 1, in_file);
+  }
+  glm::dvec3 pickedAt(const std::string& place) {
+    act("pick", place);
+    EXPECT_TRUE(live_->picking().picked()) << place;
+    return live_->picking().picked() ? live_->picking().picked()->probe.position : glm::dvec3(0.0);
+  }
+  /// A click of the wheel with the mouse at this place of the picture.
+  void wheel(const glm::dvec2& at, float notches) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = {static_cast<float>(300 * at.x), static_cast<float>(300 * at.y)};
+    live_.draw();  // ImGui looks first at what is under the mouse
+    io.MouseWheel = notches;
+    live_->input();
+    live_.draw();
+    io.MouseWheel = 0;
+  }
+
+  LiveViewer live_;
+};
+
+TEST_F(ViewerCamera, ViewsAlongTheAxesShowAllOfTheSceneInBothProjections) {
+  const Bounds bounds = *live_->boundsInFile();
+  const std::map<std::string, glm::dvec3> sights{{"front", {0, 0, -1}}, {"back", {0, 0, 1}},
+                                                 {"left", {1, 0, 0}},   {"right", {-1, 0, 0}},
+                                                 {"top", {0, -1, 0}},   {"bottom", {0, 1, 0}}};
+  for (const char* projection : {"perspective", "orthographic"}) {
+    act("projection", projection);
+    int key = '1';
+    for (const AxisView& view : axisViews()) {
+      SCOPED_TRACE(std::string(projection) + " " + std::string(view.info.key));
+      live_->key(key++, true);
+      const Camera camera = *live_->cameraInFile();
+      EXPECT_LT(glm::distance(viewBasis(camera).forward, sights.at(std::string(view.info.key))), 2e-5);
+      for (int corner = 0; corner < 8; ++corner) {
+        const auto place = placeOf(bounds.corner(corner));
+        ASSERT_TRUE(place);
+        EXPECT_LT(std::max(std::abs(place->x - 0.5), std::abs(place->y - 0.5)), 0.5);
+      }
+      // x to the right, or y upwards.
+      const ViewBasis basis = viewBasis(camera);
+      EXPECT_NEAR(std::max(std::abs(basis.right.x), basis.up.y), 1, 1e-4);
+      EXPECT_TRUE(view.up == 0 || basis.right.x > 0.9999);
+    }
+  }
+}
+
+TEST_F(ViewerCamera, PicksWhatIsSeenInBothProjections) {
+  act("camera-preset", "cornell");
+  for (const char* projection : {"perspective", "orthographic"}) {
+    act("projection", projection);
+    for (const glm::dvec2& at : {glm::dvec2(0.5, 0.4), glm::dvec2(0.35, 0.6), glm::dvec2(0.6, 0.75)}) {
+      const glm::dvec3 found = pickedAt(std::to_string(at.x) + "," + std::to_string(at.y));
+      ASSERT_TRUE(placeOf(found));
+      EXPECT_LT(glm::distance(*placeOf(found), at), 1e-5);  // digits of the place, and of the point
+    }
+  }
+  // Seen from above through the dark back of the ceiling.
+  act("view", "top");
+  EXPECT_NEAR(pickedAt("0.5,0.1").y, 0, 1e-9) << "not the floor";
+}
+
+TEST_F(ViewerCamera, TheWheelGoesToWhatIsUnderTheMouse) {
+  act("camera-preset", "cornell");
+  for (const char* projection : {"perspective", "orthographic"}) {
+    SCOPED_TRACE(projection);
+    act("projection", projection);
+    const glm::dvec2 at(0.4, 0.7);
+    const glm::dvec3 point = pickedAt("0.4,0.7");
+    const double before = glm::distance(point, live_->cameraInFile()->eye);
+    for (int k = 0; k < 3; ++k) {
+      wheel(at, 1);
+      EXPECT_LT(glm::distance(*placeOf(point), at), 1e-4);
+    }
+    EXPECT_LT(glm::distance(point, live_->cameraInFile()->eye), 0.75 * before);
+    wheel(at, -3);
+    EXPECT_LT(glm::distance(*placeOf(point), at), 1e-4);
+    EXPECT_NEAR(glm::distance(point, live_->cameraInFile()->eye), before, 1e-3 * before);
+  }
+}
+
+TEST_F(ViewerCamera, FramingKeepsTheProjection) {
+  live_->key('O', false);
+  EXPECT_TRUE(live_->camera().orthographic);
+  act("frame");
+  rest();
+  EXPECT_TRUE(live_->camera().orthographic);
+  const Bounds bounds = *live_->boundsInFile();
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec2 place = *placeOf(bounds.corner(corner));
+    EXPECT_LT(std::max(std::abs(place.x - 0.5), std::abs(place.y - 0.5)), 0.5);
+  }
+}
+
+TEST_F(ViewerCamera, IsCopiedAsItIsTaken) {
+  act("camera", "1,2,3,4,5.25,6,50");
+  act("projection", "orthographic");
+  act("copy-camera");
+  EXPECT_STREQ(ImGui::GetClipboardText(), "camera 1,2,3,4,5.25,6,50\nprojection orthographic\n");
+  act("copy-camera", "options");
+  EXPECT_STREQ(ImGui::GetClipboardText(), "--eye 1,2,3 --at 4,5.25,6 --up 0,1,0 --fov 50");
+  act("fov", "33");
+  EXPECT_EQ(live_->camera().fov_deg, 33);
+  act("speed", "3");
+  act("camera", "1,2,3,4,5,6");
+  EXPECT_EQ(live_->navigator().speedFactor(), 3) << "lost when the camera is placed";
+}
+
+TEST_F(ViewerCamera, PresetsAreOfferedWhereTheyFit) {
+  ASSERT_EQ(cameraPresets().size(), 1u);
+  const CameraPreset& cornell = cameraPresets().front();
+  EXPECT_TRUE(fits(cornell, *live_->boundsInFile()));
+  EXPECT_FALSE(fits(cornell, {{0, 0, 0}, {1, 1, 1}}));
+  EXPECT_FALSE(fits(cornell, {{-278, 0, 0}, {278, 548, 559}}));
+  act("camera-preset", "cornell");
+  // The published film is square, and the box's front edge is in it.
+  EXPECT_GT(placeOf({0, 0, 0})->x, 0.95);
+  EXPECT_LT(placeOf({0, 0, 0})->x, 1);
+}
+
+}  // namespace
+}  // namespace unshot
