@@ -171,13 +171,13 @@ std::shared_ptr<const ReferenceLight> loadedLight(const SessionState& state,
       referenceLight(snapshot.mesh, solution.radiosity, ply.filename().string()));
 }
 
-void buildLegend(const SessionState& state, const ViewOptions& view) {
+void buildLegend(const SessionState& state, const ViewOptions& view, float bottom) {
   if (!state.snapshot) return;
   const std::string light = lightText(state, view.light);
   const bool difference = displayMode(view.display).quantity == Quantity::kDifference;
   if (light.empty() && !difference) return;
   const float em = ImGui::GetFontSize();
-  ImGui::SetNextWindowPos({0.7f * em, ImGui::GetIO().DisplaySize.y - 0.7f * em}, ImGuiCond_Always, {0, 1});
+  ImGui::SetNextWindowPos({0.7f * em, bottom - 0.7f * em}, ImGuiCond_Always, {0, 1});
   ImGui::SetNextWindowBgAlpha(0.85f);
   ImGui::Begin("legend", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |

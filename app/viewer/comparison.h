@@ -25,8 +25,8 @@ std::uint32_t shownBounces(const Snapshot& snapshot, const LightChoice& choice);
 /// What light by bounces waits for, as a sentence; empty where for nothing.
 std::string bounceWaitText(const SessionState& state);
 
-/// The legend of the display mode `difference`, and a line on the part of the light that is shown; nothing
-/// for a picture of all light.
-void buildLegend(const SessionState& state, const ViewOptions& view);
+/// The legend of the display mode `difference`, and a line on the part of the light that is shown, above y =
+/// `bottom`; nothing for a picture of all light.
+void buildLegend(const SessionState& state, const ViewOptions& view, float bottom);
 
 }  // namespace unshot

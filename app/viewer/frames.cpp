@@ -8,6 +8,7 @@
 #include "viewer/comparison.h"
 #include "viewer/panels/false_colour_panel.h"
 #include "viewer/panels/panels.h"
+#include "viewer/panels/status_line.h"
 #include "viewer/viewer.h"
 
 namespace unshot {
@@ -145,9 +146,10 @@ bool Viewer::draw(GLuint framebuffer, int width, int height) {
   ImGui::NewFrame();
   navigate(seconds);
   buildSidePanel(*this, scene_width_);
-  buildLegend(*state_, ui_.settings.view);
-  buildFalseColourLegend(*this, scene_width_);
-  buildOverlays(*this, scene_width_, notice_, scene_.framing() || frame_wanted_);
+  const float bottom = static_cast<float>(height) - buildStatusLine(*this, scene_width_);
+  buildLegend(*state_, ui_.settings.view, bottom);
+  buildFalseColourLegend(*this, scene_width_, bottom);
+  buildOverlays(*this, scene_width_, bottom, notice_, scene_.framing() || frame_wanted_);
   ImGui::Render();
 
   if (renderer().hardware) {

@@ -62,6 +62,7 @@ struct ViewerState {
   SolveOptions options;  ///< of the present or the next solve
   DisplaySettings settings;
   bool panel = true;
+  bool status = true;  ///< with the panel: the line at the bottom of the scene
   bool help = false;
   bool notes = false;        ///< those on the scene, in full
   bool left_out = false;     ///< what the solve leaves out, in full

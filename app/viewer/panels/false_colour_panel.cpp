@@ -82,16 +82,15 @@ void falseColourChoices(Viewer& viewer) {
   tooltip("Three decades, instead of from 0 on");
 }
 
-void buildFalseColourLegend(const Viewer& viewer, int scene_width) {
+void buildFalseColourLegend(const Viewer& viewer, int scene_width, float bottom) {
   const ViewOptions& view = viewer.settings().view;
   if (!viewer.shownSnapshot() || !isShown(view)) return;
   const double top = 1 / (viewer.exposure() * std::exp2(view.exposure_ev));
   const float em = ImGui::GetFontSize(),
               width = std::min(kBarWidth * em, static_cast<float>(scene_width) - 4 * em);
   if (!(width > 4 * em)) return;
-  ImGui::SetNextWindowPos(
-      {static_cast<float>(scene_width) - 0.7f * em, ImGui::GetIO().DisplaySize.y - 0.7f * em},
-      ImGuiCond_Always, {1, 1});
+  ImGui::SetNextWindowPos({static_cast<float>(scene_width) - 0.7f * em, bottom - 0.7f * em}, ImGuiCond_Always,
+                          {1, 1});
   ImGui::SetNextWindowBgAlpha(0.85f);
   ImGui::Begin("false colours", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |

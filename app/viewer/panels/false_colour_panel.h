@@ -8,7 +8,8 @@ namespace unshot {
 /// Rows of the panel; nothing where the display mode shows no false colours.
 void falseColourChoices(Viewer& viewer);
 
-/// The scale with round values and its unit, over the scene's lower right; nothing in other modes.
-void buildFalseColourLegend(const Viewer& viewer, int scene_width);
+/// The scale with round values and its unit, over the scene's lower right, above y = `bottom`; nothing in
+/// other modes.
+void buildFalseColourLegend(const Viewer& viewer, int scene_width, float bottom);
 
 }  // namespace unshot

@@ -105,7 +105,7 @@ void line(const char* id, const std::string& text, ImVec2 at, ImVec2 pivot) {
 
 }  // namespace
 
-void buildOverlays(Viewer& viewer, int scene_width, const std::string& notice, bool framing) {
+void buildOverlays(Viewer& viewer, int scene_width, float bottom, const std::string& notice, bool framing) {
   const float size = ImGui::GetFontSize();
   const float height = ImGui::GetIO().DisplaySize.y;
   const float middle = static_cast<float>(scene_width) / 2;
@@ -127,7 +127,7 @@ void buildOverlays(Viewer& viewer, int scene_width, const std::string& notice, b
   } else if (viewer.ui().help) {
     helpWindow(middle);
   }
-  if (!notice.empty()) line("notice", notice, {middle, height - size}, {0.5f, 1});
+  if (!notice.empty()) line("notice", notice, {middle, bottom - 0.7f * size}, {0.5f, 1});
 }
 
 }  // namespace unshot

@@ -19,6 +19,7 @@
 #include "viewer/panels/picked_panel.h"
 #include "viewer/panels/plan_panel.h"
 #include "viewer/panels/race_panel.h"
+#include "viewer/panels/status_line.h"
 #include "viewer/panels/theme.h"
 #include "viewer/panels/widgets.h"
 
@@ -40,34 +41,6 @@ template <class Row>
 std::string shownChoice(std::span<const Row> table, const std::string& asked, const std::string& became) {
   if (asked != "auto") return titleOf(table, asked);
   return became.empty() ? "Automatic" : titleOf(table, became);
-}
-
-struct PhaseLook {
-  const char* text;
-  ImVec4 colour;
-};
-
-PhaseLook lookOf(const SessionState& state) {
-  switch (state.phase) {
-    case SessionPhase::kEmpty:
-      return {"No scene", {0.55f, 0.55f, 0.55f, 1}};
-    case SessionPhase::kLoading:
-      return {"Loading", {0.95f, 0.75f, 0.3f, 1}};
-    case SessionPhase::kRunning:
-      if (state.facts && state.measures.solverBound() <= state.facts->solver_target)
-        return {state.measures.drafts > 0 ? "Refining form factors" : "Sharpening", {0.98f, 0.72f, 0.25f, 1}};
-      return {"Shooting", {0.98f, 0.72f, 0.25f, 1}};
-    case SessionPhase::kPaused:
-      return {"Paused", {0.6f, 0.7f, 0.85f, 1}};
-    case SessionPhase::kConverged:
-      if (state.stopped_by == "no light") return {"No light", {0.85f, 0.75f, 0.5f, 1}};
-      return {"Converged", {0.5f, 0.85f, 0.5f, 1}};
-    case SessionPhase::kStopped:
-      return {"Limit reached", {0.85f, 0.75f, 0.5f, 1}};
-    case SessionPhase::kFailed:
-      break;
-  }
-  return {"Failed", {0.95f, 0.4f, 0.35f, 1}};
 }
 
 void chooseScene(Viewer& viewer) {
@@ -101,7 +74,7 @@ void chooseScene(Viewer& viewer) {
 
 void head(Viewer& viewer) {
   const SessionState& state = viewer.state();
-  const PhaseLook look = lookOf(state);
+  const PhaseLook look = phaseLook(state);
   dot(look.colour);
   ImGui::TextUnformatted(look.text);
   if (state.facts && state.phase != SessionPhase::kLoading) {

@@ -13,7 +13,7 @@ int panelWidth(const ViewerState& ui, double scale, int width);
 /// The panel at the right edge, from x = `left` on; nothing where that is the edge itself.
 void buildSidePanel(Viewer& viewer, int left);
 
-/// Messages, help and what is being loaded, over the scene's `scene_width` pixels.
-void buildOverlays(Viewer& viewer, int scene_width, const std::string& notice, bool framing);
+/// Messages, help and what is being loaded, over the scene's `scene_width` pixels, down to y = `bottom`.
+void buildOverlays(Viewer& viewer, int scene_width, float bottom, const std::string& notice, bool framing);
 
 }  // namespace unshot

@@ -1,0 +1,123 @@
+#include "viewer/panels/status_line.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "base/text.h"
+#include "solver/modes.h"
+#include "viewer/panels/error_panel.h"
+#include "viewer/panels/widgets.h"
+
+namespace unshot {
+namespace {
+
+constexpr float kHeight = 1.5f;  // in letters' heights
+constexpr float kGap = 1.1f;     // between two parts, the same
+
+/// A part of the line. `widest` is the longest text that it usually has: so much room is kept for it, so that
+/// nothing moves when a figure gets longer or shorter.
+struct Part {
+  std::string text;
+  const char* widest;
+  const char* tip;
+};
+
+std::string frameText(double milliseconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, milliseconds < 99.95 ? "%.1f ms" : "%.0f ms", milliseconds);
+  return text;
+}
+
+std::string modeText(const SessionState& state) {
+  return std::string(findChoice(iterationModes(), state.facts->mode, "iteration mode").info.title);
+}
+
+std::array<Part, 6> partsOf(const Viewer& viewer) {
+  const SessionState& state = viewer.state();
+  const bool solving = state.facts && state.phase != SessionPhase::kLoading;
+  const bool running = state.phase == SessionPhase::kRunning;
+  const auto rows = static_cast<std::uint64_t>(viewer.rates().columns);
+  const std::string nothing;
+  return {{
+      {solving ? "unshot " + percentText(state.measures.unshot_fraction) : nothing, "unshot 0.0012 %",
+       "Light that is emitted or reflected but not yet shot: sum A |U| / sum A E over patches and channels"},
+      {solving ? errorInFront(state) : nothing, "error about 0.0012 %",
+       "How wrong the reflected light still is (RMS error over RMS light); \"below\" is a proven bound of "
+       "the "
+       "solver's error, \"about\" an estimate of all of it"},
+      {running ? countText(rows) + " rows/s" : nothing, "00,000 rows/s",
+       "Columns and rows of form factors computed a second"},
+      {frameText(viewer.frameMilliseconds()), "000.0 ms",
+       "To draw the scene and the panels once; a slow renderer does it over several frames"},
+      {solving ? modeText(state) : nothing, "Progressive refinement",
+       "Iteration mode: how it is chosen what is shot next"},
+      {viewer.renderer().renderer, "", "What draws the picture"},
+  }};
+}
+
+}  // namespace
+
+PhaseLook phaseLook(const SessionState& state) {
+  switch (state.phase) {
+    case SessionPhase::kEmpty:
+      return {"No scene", {0.55f, 0.55f, 0.55f, 1}};
+    case SessionPhase::kLoading:
+      return {"Loading", {0.95f, 0.75f, 0.3f, 1}};
+    case SessionPhase::kRunning:
+      if (state.facts && state.measures.solverBound() <= state.facts->solver_target)
+        return {state.measures.drafts > 0 ? "Refining form factors" : "Sharpening", {0.98f, 0.72f, 0.25f, 1}};
+      return {"Shooting", {0.98f, 0.72f, 0.25f, 1}};
+    case SessionPhase::kPaused:
+      return {"Paused", {0.6f, 0.7f, 0.85f, 1}};
+    case SessionPhase::kConverged:
+      if (state.stopped_by == "no light") return {"No light", {0.85f, 0.75f, 0.5f, 1}};
+      return {"Converged", {0.5f, 0.85f, 0.5f, 1}};
+    case SessionPhase::kStopped:
+      return {"Limit reached", {0.85f, 0.75f, 0.5f, 1}};
+    case SessionPhase::kFailed:
+      break;
+  }
+  return {"Failed", {0.95f, 0.4f, 0.35f, 1}};
+}
+
+float buildStatusLine(Viewer& viewer, int scene_width) {
+  if (!viewer.ui().panel || !viewer.ui().status) return 0;
+  const float em = ImGui::GetFontSize(), height = std::round(kHeight * em);
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({0, window.y - height});
+  ImGui::SetNextWindowSize({static_cast<float>(scene_width), height});
+  ImGui::SetNextWindowBgAlpha(0.8f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0.7f * em, 0.5f * (height - em)));
+  ImGui::Begin("status", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                   ImGuiWindowFlags_NoScrollWithMouse);
+  const PhaseLook look = phaseLook(viewer.state());
+  const float end = static_cast<float>(scene_width) - 0.7f * em;
+  dot(look.colour);
+  ImGui::TextUnformatted(look.text);
+  tooltip("What the solve is doing. Tab hides this line with the panel");
+  float at = 0.7f * em + 0.8f * em + ImGui::CalcTextSize("Refining form factors").x + kGap * em;
+  for (const Part& part : partsOf(viewer)) {
+    const float width =
+        std::max(ImGui::CalcTextSize(part.widest).x, ImGui::CalcTextSize(part.text.c_str()).x);
+    if (at + width > end) break;
+    if (!part.text.empty()) {
+      ImGui::SameLine(at);
+      ImGui::TextDisabled("%s", part.text.c_str());
+      tooltip(part.tip);
+    }
+    at += width + kGap * em;
+  }
+  ImGui::End();
+  ImGui::PopStyleVar(4);
+  return height;
+}
+
+}  // namespace unshot

@@ -1,0 +1,91 @@
+// The line at the bottom of the scene: where it stands, when it goes, and that nothing in it moves.
+#include "viewer/panels/status_line.h"
+
+#include <gtest/gtest.h>
+#include <imgui_internal.h>
+
+#include <set>
+
+#include "support/live_viewer.h"
+
+namespace unshot {
+namespace {
+
+using testing_support::LiveViewer;
+
+const std::string kBox = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
+
+SolveOptions small() {
+  SolveOptions options;
+  options.elements = 1000;
+  return options;
+}
+
+const ImGuiWindow* status() {
+  const ImGuiWindow* window = ImGui::FindWindowByName("status");
+  return window && window->Active ? window : nullptr;
+}
+
+/// Where words begin: a letter's left edge with more than a space's width of nothing before it.
+std::set<int> wordsAt(const ImGuiWindow& window) {
+  std::set<int> starts;
+  const ImVec2 white = ImGui::GetIO().Fonts->TexUvWhitePixel;
+  const float em = window.CalcFontSize();
+  float end = -1000;
+  for (int k = 0; k + 3 < window.DrawList->VtxBuffer.Size; k += 4) {
+    const ImDrawVert& v = window.DrawList->VtxBuffer[k];
+    if (v.uv.x == white.x && v.uv.y == white.y) continue;
+    if (v.pos.x - end > 0.8f * em) starts.insert(static_cast<int>(v.pos.x));
+    end = window.DrawList->VtxBuffer[k + 2].pos.x;
+  }
+  return starts;
+}
+
+TEST(StatusLine, LiesAtTheBottomOfTheSceneAndGoesWithThePanel) {
+  LiveViewer viewer({kBox, small(), "", 1280, 720});
+  ASSERT_TRUE(viewer.untilPhase(SessionPhase::kConverged));
+  viewer.draw();
+  ASSERT_TRUE(status());
+  EXPECT_EQ(status()->Rect().Max.y, 720);
+  EXPECT_EQ(status()->Rect().Max.x, ImGui::FindWindowByName("panel")->Rect().Min.x);
+  EXPECT_LT(status()->Size.y, 30);
+  for (const auto& [action, on, off] :
+       {std::array{"status", "on", "off"}, std::array{"panel", "on", "off"}}) {
+    viewer->perform(action, off);
+    viewer.draw();
+    EXPECT_FALSE(status()) << action;
+    viewer->perform(action, on);
+    viewer.draw();
+    EXPECT_TRUE(status()) << action;
+  }
+}
+
+TEST(StatusLine, NothingMovesWhileFiguresChange) {
+  LiveViewer viewer({kBox, small(), "", 1280, 720});
+  std::set<int> seen;
+  int frames = 0;
+  ASSERT_TRUE(viewer.until([&] {
+    // Vertices of the last frame, while it solves.
+    if (viewer->state().phase == SessionPhase::kRunning && status()) {
+      ++frames;
+      seen.merge(wordsAt(*status()));
+    }
+    return viewer->state().phase == SessionPhase::kConverged;
+  }));
+  EXPECT_GT(frames, 3);
+  // Phase, unshot light, error, rows, frame, mode, renderer.
+  EXPECT_LE(seen.size(), 7u) << testing::PrintToString(seen);
+  EXPECT_GE(seen.size(), 6u) << testing::PrintToString(seen);
+}
+
+TEST(StatusLine, LeavesTheLastOutWhereItIsNarrow) {
+  LiveViewer viewer({kBox, small(), "", 640, 360});
+  ASSERT_TRUE(viewer.untilPhase(SessionPhase::kConverged));
+  viewer.draw();
+  ASSERT_TRUE(status());
+  EXPECT_EQ(wordsAt(*status()).size(), 2u);  // the phase and what is unshot
+  EXPECT_LE(status()->ContentSize.x, status()->Size.x);
+}
+
+}  // namespace
+}  // namespace unshot
