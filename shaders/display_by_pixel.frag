@@ -36,6 +36,8 @@ void main() {
     shown = received;
   } else if (quantity == 7) {
     shown = differenceColour(luminance(reflectance * received - vertex_extra) * per_mean);
+  } else if (quantity == 8) {
+    shown = received * vertex_extra;
   } else if (quantity == 2 || quantity >= 5) {
     float y = luminance(vertex_extra);
     shown = y < 0.0 ? -y * kNegative : vertex_extra;

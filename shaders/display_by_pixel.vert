@@ -10,6 +10,7 @@ layout(location = 5) in vec3 extra;  // what the mode shows besides the light: u
 
 uniform mat4 view_projection;
 uniform vec4 eye;                 // homogeneous: at infinity where sights are parallel
+uniform int quantity;             // enum Quantity
 uniform bool edges;               // lines: pulled to the eye a little, clipped where their side faces away
 uniform float ambient_weight;     // 0 or 1
 uniform samplerBuffer sides;      // per side: reflectance, emission
@@ -30,7 +31,7 @@ void main() {
   gl_ClipDistance[0] = dot(normal, to_eye);
   vertex_irradiance = irradiance;
   vertex_ambient = ambient_weight * ambient;
-  vertex_extra = extra;
+  vertex_extra = quantity == 8 ? vec3(0.45 + 0.55 * abs(cosine)) : extra;  // 8: the shading of patches
   reflectance = texelFetch(sides, 2 * int(side)).rgb;
   emission = texelFetch(sides, 2 * int(side) + 1).rgb;
 }

@@ -8,7 +8,7 @@ uniform sampler2D samples;
 uniform int factor;           // samples along a pixel's side
 uniform ivec2 origin;         // of the viewport in the target
 uniform float exposure;
-uniform bool tone_mapped;
+uniform int tone_curve;       // in core/base/tone.cpp; -1: none, 1 is white
 uniform vec3 background;      // linear values of the display
 uniform vec3 sky;             // linear, where the picture shows light and there is a sky behind it; else 0
 uniform float edge_strength;  // 0..1
@@ -51,7 +51,7 @@ vec3 display(ivec2 at, vec4 s) {
     s.rgb = sky;
   }
   vec3 exposed = min(s.rgb * exposure, vec3(1e4));
-  vec3 c = tone_mapped ? toneMap(exposed) : min(exposed, 1.0);
+  vec3 c = tone_curve >= 0 ? toneMap(tone_curve, exposed) : min(exposed, 1.0);
   // Edges darken what is light and lighten what is dark.
   if (s.a == 3.0) c = mix(c, 0.25 * c + 0.04, edge_strength);
   return c;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/tone.h"
 #include "cli/commands.h"
 #include "exit_codes.h"
 #include "export/exporters.h"
@@ -61,6 +62,7 @@ int runList() {
   printTable("Iteration modes (--mode)", iterationModes(), "", available);
   printTable("Form-factor methods (--form-factors)", formFactorMethods(), "", available);
   printTable("Display modes (--display)", displayModes(), "", available);
+  printTable("Tone curves (tone, in the viewer)", toneCurves(), "", available);
   printTable("Exporters", exporters(), "--", available);
   printTable("Scene checks (unshot check)", sceneChecks(), "", available);
   printTable("What the plan may leave out (--do)", planRows(), "", available);

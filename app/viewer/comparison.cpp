@@ -7,10 +7,12 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <span>
 
 #include "base/srgb.h"
 #include "base/text.h"
 #include "export/probes.h"
+#include "viewer/panels/widgets.h"
 
 namespace unshot {
 namespace {
@@ -20,6 +22,8 @@ namespace {
 constexpr double kMostOutside = 0.02;
 // How far from a vertex towards its triangles' middles a solution on another mesh is asked.
 constexpr double kBeside = 0.02;
+// In letters' heights: a scale that has room for all its figures.
+constexpr float kWideScale = 22;
 
 const Snapshot& snapshotOf(const SessionState& state) {
   if (!state.snapshot) throw Error(ErrorKind::kUsage, "there is no light yet", {}, "open a scene first");
@@ -55,9 +59,11 @@ void drawScale(ImVec2 at, float width, float em) {
     list.AddRectFilled({x, at.y}, {x + 1, at.y + em}, colourOf(differenceAt(place)));
   }
   const std::array<double, 7> ticks = {-1, -2.0 / 3, -1.0 / 3, 0, 1.0 / 3, 2.0 / 3, 1};
-  for (const double place : ticks) {
+  for (std::size_t k = 0; k < ticks.size(); ++k) {
+    const double place = ticks[k];
     const float x = std::round(at.x + static_cast<float>((place + 1) / 2) * (width - 1));
     list.AddRectFilled({x, at.y + em}, {x + 1, at.y + 1.3f * em}, ImGui::GetColorU32(ImGuiCol_Text, 0.6f));
+    if (k % 3 != 0 && width < kWideScale * em) continue;  // the ends and the middle have room
     const std::string text =
         place == 0 ? "0" : (place < 0 ? "\u2212" : "+") + percentText(std::abs(differenceAt(place)));
     const float half = ImGui::CalcTextSize(text.c_str()).x / 2;
@@ -66,20 +72,49 @@ void drawScale(ImVec2 at, float width, float em) {
   }
 }
 
-void differenceLegend(const std::string& shown, const std::string& reference) {
-  const float em = ImGui::GetFontSize(), width = 26 * em;
-  ImGui::TextUnformatted((shown + " \u2212 " + reference).c_str());
+}  // namespace
+
+void differenceScale(const std::string& title, const char* unit, float room) {
+  const float em = ImGui::GetFontSize(), width = std::clamp(room - 6 * em, 6 * em, 26 * em);
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width + 2 * em);
+  ImGui::TextUnformatted(title.c_str());
+  ImGui::PopTextWrapPos();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   drawScale({at.x + em, at.y}, width, em);
   ImGui::Dummy({width + 2 * em, 2.5f * em});
-  ImGui::TextDisabled("darker");
+  const float left = ImGui::GetCursorPosX();
+  const auto word = [&](const char* text, float place) {
+    ImGui::SetCursorPosX(left + place * (width + 2 * em - ImGui::CalcTextSize(text).x));
+    ImGui::TextDisabled("%s", text);
+  };
+  word("darker", 0);
   ImGui::SameLine();
-  const char* unit = "of its mean reflected light";
-  ImGui::SetCursorPosX((width + 2 * em - ImGui::CalcTextSize(unit).x) / 2 +
-                       ImGui::GetStyle().WindowPadding.x);
-  ImGui::TextDisabled("%s", unit);
-  ImGui::SameLine(width + 2 * em - ImGui::CalcTextSize("brighter").x + ImGui::GetStyle().WindowPadding.x);
-  ImGui::TextDisabled("brighter");
+  if (width >= kWideScale * em) {
+    word(unit, 0.5f);
+    ImGui::SameLine();
+  }
+  word("brighter", 1);
+  if (width < kWideScale * em) word(unit, 0.5f);
+}
+
+namespace {
+
+/// What colours of surfaces stand for: a dot and a word each.
+void colourLegend(Quantity quantity) {
+  struct Row {
+    ImVec4 colour;
+    const char* text;
+  };
+  const std::array<Row, 2> sides = {
+      {{{0.27f, 0.53f, 0.86f, 1}, "front"}, {{0.91f, 0.54f, 0.19f, 1}, "back"}}};
+  const std::array<Row, 3> axes = {
+      {{{0.95f, 0.45f, 0.4f, 1}, "+x"}, {{0.45f, 0.9f, 0.4f, 1}, "+y"}, {{0.5f, 0.55f, 1, 1}, "+z"}}};
+  const std::span<const Row> rows = quantity == Quantity::kSides ? std::span<const Row>(sides) : axes;
+  for (const Row& row : rows) {
+    if (&row != rows.data()) ImGui::SameLine(0, ImGui::GetFontSize());
+    dot(row.colour);
+    ImGui::TextUnformatted(row.text);
+  }
 }
 
 /// The part of the light that is shown, in words; empty for all of it.
@@ -171,11 +206,13 @@ std::shared_ptr<const ReferenceLight> loadedLight(const SessionState& state,
       referenceLight(snapshot.mesh, solution.radiosity, ply.filename().string()));
 }
 
-void buildLegend(const SessionState& state, const ViewOptions& view, float bottom) {
+void buildLegend(const SessionState& state, const ViewOptions& view, int scene_width, float bottom) {
   if (!state.snapshot) return;
   const std::string light = lightText(state, view.light);
-  const bool difference = displayMode(view.display).quantity == Quantity::kDifference;
-  if (light.empty() && !difference) return;
+  const Quantity quantity = displayMode(view.display).quantity;
+  const bool difference = quantity == Quantity::kDifference;
+  const bool colours = quantity == Quantity::kSides || quantity == Quantity::kNormals;
+  if (light.empty() && !difference && !colours) return;
   const float em = ImGui::GetFontSize();
   ImGui::SetNextWindowPos({0.7f * em, bottom - 0.7f * em}, ImGuiCond_Always, {0, 1});
   ImGui::SetNextWindowBgAlpha(0.85f);
@@ -185,7 +222,11 @@ void buildLegend(const SessionState& state, const ViewOptions& view, float botto
                    ImGuiWindowFlags_NoInputs);
   if (difference) {
     const bool fits = view.reference && view.reference->mesh->cut == state.snapshot->mesh->cut;
-    differenceLegend(light.empty() ? "all light" : light, fits ? view.reference->name : "direct light alone");
+    differenceScale((light.empty() ? "all light" : light) + " \u2212 " +
+                        (fits ? view.reference->name : "direct light alone"),
+                    "of its mean reflected light", static_cast<float>(scene_width));
+  } else if (colours) {
+    colourLegend(quantity);
   } else {
     ImGui::TextUnformatted(light.c_str());
   }

@@ -25,8 +25,12 @@ std::uint32_t shownBounces(const Snapshot& snapshot, const LightChoice& choice);
 /// What light by bounces waits for, as a sentence; empty where for nothing.
 std::string bounceWaitText(const SessionState& state);
 
+/// A scale of relative differences with its title, in a picture `room` wide [px]; `unit` says of what they
+/// are parts.
+void differenceScale(const std::string& title, const char* unit, float room);
+
 /// The legend of the display mode `difference`, and a line on the part of the light that is shown, above y =
 /// `bottom`; nothing for a picture of all light.
-void buildLegend(const SessionState& state, const ViewOptions& view, float bottom);
+void buildLegend(const SessionState& state, const ViewOptions& view, int scene_width, float bottom);
 
 }  // namespace unshot

@@ -5,9 +5,11 @@
 #include <utility>
 
 #include "base/clock.h"
+#include "base/srgb.h"
 #include "viewer/comparison.h"
 #include "viewer/panels/false_colour_panel.h"
 #include "viewer/panels/panels.h"
+#include "viewer/panels/reference_picture_panel.h"
 #include "viewer/panels/status_line.h"
 #include "viewer/viewer.h"
 
@@ -24,7 +26,8 @@ constexpr double kRestSeconds = 0.2;  // without motion, before the picture is s
 constexpr double kSliceSeconds = 0.004;
 // However many inputs come, a picture in the making has this long between two frames.
 constexpr double kSceneSeconds = 0.01;
-constexpr float kBackground = 26 / 255.0f;  // that of the pictures
+// While it solves, the difference from a reference picture is found no more often than so.
+constexpr double kMeasureSeconds = 0.5;
 
 bool idle(SessionPhase phase) { return phase != SessionPhase::kRunning && phase != SessionPhase::kLoading; }
 
@@ -143,12 +146,14 @@ bool Viewer::draw(GLuint framebuffer, int width, int height) {
   if (gui_frames_ > 0) --gui_frames_;
   scene_width_ = width - panelWidth(ui_, scale_, width);
   scene_height_ = height;
+  measureReference(now);
   ImGui::NewFrame();
   navigate(seconds);
   buildSidePanel(*this, scene_width_);
   const float bottom = static_cast<float>(height) - buildStatusLine(*this, scene_width_);
-  buildLegend(*state_, ui_.settings.view, bottom);
+  buildLegend(*state_, ui_.settings.view, scene_width_, bottom);
   buildFalseColourLegend(*this, scene_width_, bottom);
+  buildReferencePicture(*this, scene_width_, bottom);
   buildOverlays(*this, scene_width_, bottom, notice_, scene_.framing() || frame_wanted_);
   ImGui::Render();
 
@@ -160,6 +165,8 @@ bool Viewer::draw(GLuint framebuffer, int width, int height) {
   const bool changed = painted_ != look;
   painted_ = look;
   if (changed) paint(framebuffer, width, height, scene_width_, true);
+  // The next frame measures what this one shows.
+  if (changed && referencePicture()) gui_frames_ = std::max(gui_frames_, 1);
   // ImGui shows a new window one frame late.
   if (!captures_.empty() && gui_frames_ == 0) {
     const Capture next = captures_.front();
@@ -189,13 +196,31 @@ void Viewer::presented() {
   session_.setPublishInterval(std::max(kSnapshotSeconds, share * frame_cost_));
 }
 
+const ReferencePicture* Viewer::referencePicture() const {
+  const bool shown = reference_picture_ && !state_->rival && ReferencePicture::comparable(ui_.settings.view);
+  return shown ? reference_picture_.get() : nullptr;
+}
+
+ReferencePicture::Look Viewer::referenceLook() const {
+  return {ui_.settings.view, scene_.exposure(), ui_.wipe, ui_.picture_difference};
+}
+
+void Viewer::measureReference(double now) {
+  if (!referencePicture() || !sceneStands()) return;
+  if (!idle(state_->phase) && now < last_measured_ + kMeasureSeconds) return;
+  last_measured_ = now;
+  reference_picture_->measure(scene_, scene_width_, scene_height_, referenceLook());
+}
+
 void Viewer::paint(GLuint framebuffer, int width, int height, int scene_width, bool gui) {
   const gl::Functions& fn = setup_.display->functions();
   fn.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   fn.Viewport(0, 0, width, height);
-  fn.ClearColor(kBackground, kBackground, kBackground, 1);
+  const float background = static_cast<float>(srgbFromLinear(kBackground));
+  fn.ClearColor(background, background, background, 1);
   fn.Clear(GL_COLOR_BUFFER_BIT);
   scene_.copyTo(scene_width);
+  if (referencePicture()) reference_picture_->draw(scene_, framebuffer, scene_width, height, referenceLook());
   if (gui) gui_.draw(*ImGui::GetDrawData(), width, height);
 }
 

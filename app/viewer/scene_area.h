@@ -54,6 +54,7 @@ class SceneArea {
 
   double exposure() const { return first_.exposure(); }
   bool gliding() const { return first_.gliding(); }
+  const std::optional<LuminanceHistogram>& histogram() const { return first_.histogram(); }
   void snapExposure() { first_.snapExposure(); }
 
  private:

@@ -68,8 +68,10 @@ std::optional<Camera> SceneDisplay::continueFraming(std::optional<double> second
 bool SceneDisplay::differs(const Wanted& wanted) const {
   return !drawn_ || !sameSamples(*drawn_, wanted) ||
          drawn_->settings.view.exposure_ev != wanted.settings.view.exposure_ev ||
+         drawn_->settings.view.tone != wanted.settings.view.tone ||
          drawn_->settings.view.false_colour != wanted.settings.view.false_colour ||
          drawn_->settings.exposure_locked != wanted.settings.exposure_locked ||
+         drawn_->settings.histogram != wanted.settings.histogram ||
          drawn_->settings.view.automatic_exposure != wanted.settings.view.automatic_exposure;
 }
 
@@ -167,6 +169,7 @@ bool SceneDisplay::drawSamples(double deadline) {
   if (sampled(making_->wanted)) return true;
   if (!drawPieces(samples_, making_->wanted, {}, making_->piece, deadline)) return false;
   sampled_ = making_->wanted;
+  small_.reset();
   metered_.reset();
   return true;
 }
@@ -221,10 +224,20 @@ void SceneDisplay::expose() {
   if (const auto& given = wanted.settings.view.automatic_exposure) {
     exposure_ = *given;
   } else if (follow || snap_) {
-    if (!metered_) metered_ = view_.meter(samples_, viewOf(wanted));
+    if (!metered_) {
+      const bool metering = displayMode(wanted.settings.view.display).tone_mapped;
+      metered_ = metering ? SceneView::meter(smallCopy(), viewOf(wanted)) : 1;
+    }
     exposure_ = nextExposure(*metered_, glide_seconds_);
   }
+  histogram_.reset();
+  if (wanted.settings.histogram) histogram_ = luminanceHistogram(smallCopy());
   glide_seconds_ = 0;
+}
+
+const std::vector<glm::vec4>& SceneDisplay::smallCopy() {
+  if (!small_) small_ = view_.smallCopy(samples_);
+  return *small_;
 }
 
 void SceneDisplay::sharpen(int samples, double deadline) {

@@ -10,8 +10,10 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "render/automatic_camera.h"
+#include "render/histogram.h"
 #include "render/scene_view.h"
 #include "session/snapshot.h"
 #include "viewer/pace.h"
@@ -24,6 +26,7 @@ struct DisplaySettings {
   /// rest is chosen here.
   ViewOptions view;
   bool exposure_locked = false;  ///< keeps the present exposure instead of following the light
+  bool histogram = false;        ///< SceneDisplay::histogram() is wanted
 };
 
 /// All calls on the thread where the context is current.
@@ -78,6 +81,8 @@ class SceneDisplay {
   /// Factor from linear values to about 1 for white, before exposure_ev.
   double exposure() const { return exposure_; }
   bool gliding() const { return gliding_; }
+  /// Of the picture shown; none where it was not wanted of that one.
+  const std::optional<LuminanceHistogram>& histogram() const { return histogram_; }
   /// The next picture takes its own exposure at once.
   void snapExposure() { snap_ = true; }
 
@@ -103,6 +108,7 @@ class SceneDisplay {
   bool upload(double deadline);
   bool drawSamples(double deadline);
   void expose();
+  const std::vector<glm::vec4>& smallCopy();
   bool showRows(double deadline);
   bool drawPieces(const LinearTarget& target, const Wanted& wanted, const FrameWindow& window,
                   std::size_t& piece, double deadline);
@@ -116,8 +122,10 @@ class SceneDisplay {
   Picture shown_, next_;
   std::optional<Making> making_;
   LinearTarget samples_;
-  std::optional<Wanted> sampled_, drawn_;  // what samples_ and shown_ hold of the present snapshot
-  std::optional<double> metered_;          // of samples_
+  std::optional<Wanted> sampled_, drawn_;        // what samples_ and shown_ hold of the present snapshot
+  std::optional<std::vector<glm::vec4>> small_;  // copy of samples_, where it was looked at
+  std::optional<double> metered_;                // of samples_
+  std::optional<LuminanceHistogram> histogram_;  // of the picture shown
   Camera shown_camera_;
   bool drawn_anew_ = false;
   std::uint64_t version_ = 0;

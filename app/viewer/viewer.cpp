@@ -271,6 +271,11 @@ void Viewer::loadReference(const std::filesystem::path& ply) {
 
 void Viewer::forget() { ui_.settings.view.reference.reset(); }
 
+void Viewer::loadReferencePicture(const std::filesystem::path& file) {
+  reference_picture_ = std::make_unique<ReferencePicture>(*setup_.display, file);
+  notice("compared with " + reference_picture_->name());
+}
+
 // Light of another mesh is no reference; bounces that were chosen are wanted of the new solve too.
 void Viewer::forgetOldLight() {
   ViewOptions& view = ui_.settings.view;

@@ -28,6 +28,7 @@
 #include "viewer/memory.h"
 #include "viewer/navigator.h"
 #include "viewer/picking.h"
+#include "viewer/reference_picture.h"
 #include "viewer/scene_area.h"
 #include "viewer/script.h"
 
@@ -69,6 +70,8 @@ struct ViewerState {
   bool materials = false;    ///< to be changed
   std::size_t material = 0;  ///< the one chosen
   PlotAxis plot_axis = PlotAxis::kSeconds;
+  double wipe = 0.5;                ///< where the reference picture begins: 0 left, 1 right
+  bool picture_difference = false;  ///< the difference from the reference picture, instead
 };
 
 /// Shots and columns a second, over about the last second.
@@ -140,6 +143,7 @@ class Viewer {
   /// Opens and closes the panel's sections as they were, and remembers how they are now.
   void followSections(ImGuiStorage& sections);
   double exposure() const { return scene_.exposure(); }
+  const std::optional<LuminanceHistogram>& histogram() const { return scene_.histogram(); }
   Rates rates() const;
   double frameMilliseconds() const { return 1000 * frame_cost_; }
 
@@ -172,6 +176,11 @@ class Viewer {
   void remember();
   void loadReference(const std::filesystem::path& ply);
   void forget();
+  /// A picture over that of the scene (reference_picture.h).
+  void loadReferencePicture(const std::filesystem::path& file);
+  void forgetReferencePicture() { reference_picture_.reset(); }
+  /// Null where there is none, or where the display mode shows nothing to compare with it.
+  const ReferencePicture* referencePicture() const;
   /// Finds the automatic camera again.
   void frameScene();
   /// In the coordinates of the scene's file; projection and upwards stay.
@@ -272,6 +281,8 @@ class Viewer {
   void rememberCamera(const SessionState& state);
   void recallPanel();
   void rememberPanel();
+  ReferencePicture::Look referenceLook() const;
+  void measureReference(double now);
   bool drawScene(double now, double deadline);
   void paint(GLuint framebuffer, int width, int height, int scene_width, bool gui);
   void capture(const Capture& wanted, int width, int height, int scene_width);
@@ -319,6 +330,8 @@ class Viewer {
     glm::dvec3 point;
   };
   std::optional<ZoomTarget> zoom_target_;
+  std::unique_ptr<ReferencePicture> reference_picture_;
+  double last_measured_ = 0;  // reference_picture_
 
   // The scene shown.
   std::filesystem::path framed_scene_;  // the camera is for this one

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/clock.h"
+#include "viewer/actions/actions.h"
 #include "viewer/glfw_context.h"
 
 namespace unshot {
@@ -39,7 +40,7 @@ void setCallbacks(GLFWwindow* window) {
   glfwSetWindowContentScaleCallback(window,
                                     [](GLFWwindow* w, float x, float) { viewerOf(w).setScreenScale(x); });
   glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
-    if (count > 0) viewerOf(w).perform("open", paths[0]);
+    if (count > 0) viewerOf(w).perform(actionOfFile(paths[0]), paths[0]);
   });
 }
 

@@ -3,7 +3,11 @@
 #include <stb_image.h>
 #include <stb_image_write.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -36,7 +40,38 @@ void requireDecoded(const StbPixels<Value>& pixels, const std::filesystem::path&
   if (pixels) return;
   throw Error(ErrorKind::kInput,
               std::string("this is not a picture that can be read (") + stbi_failure_reason() + ")",
-              path.string(), "a PNG or Radiance HDR file");
+              path.string(), "a PNG, Radiance HDR or PFM file");
+}
+
+bool isPfm(const std::string& bytes) { return bytes.starts_with("PF") || bytes.starts_with("Pf"); }
+
+/// Portable float map: "PF" (three channels) or "Pf" (one), width, height, scale (below 0: lowest byte
+/// first), one white space, then floats, lowest row first.
+ImageF pfmImage(const std::string& bytes, const std::filesystem::path& path) {
+  std::istringstream head(bytes.substr(0, 200));
+  std::string magic;
+  ImageF image;
+  double scale = 0;
+  head >> magic >> image.width >> image.height >> scale;
+  const bool fits =
+      head && image.width > 0 && image.height > 0 && image.width <= 1 << 16 && image.height <= 1 << 16;
+  const std::size_t channels = magic == "PF" ? 3 : 1,
+                    begin = fits ? static_cast<std::size_t>(head.tellg()) + 1 : 0;
+  const std::size_t row = fits ? channels * static_cast<std::size_t>(image.width) : 0;
+  if (!fits || bytes.size() != begin + 4 * row * static_cast<std::size_t>(image.height))
+    throw Error(ErrorKind::kInput, "this portable float map is broken or cut short", path.string(),
+                "another file");
+  image.rgb.reserve(3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+  for (auto y = static_cast<std::size_t>(image.height); y-- > 0;) {
+    for (std::size_t k = 0; k < 3 * static_cast<std::size_t>(image.width); ++k) {
+      const char* from = &bytes[begin + 4 * (y * row + (channels == 3 ? k : k / 3))];
+      std::array<char, 4> value = {from[0], from[1], from[2], from[3]};
+      if ((scale < 0) != (std::endian::native == std::endian::little))
+        std::reverse(value.begin(), value.end());
+      image.rgb.push_back(std::bit_cast<float>(value));
+    }
+  }
+  return image;
 }
 
 }  // namespace
@@ -70,6 +105,7 @@ void writeHdr(const std::filesystem::path& path, const ImageF& image) {
 
 ImageF readImage(const std::filesystem::path& path) {
   const std::string bytes = readFile(path);
+  if (isPfm(bytes)) return pfmImage(bytes, path);
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   const int size = static_cast<int>(bytes.size());
   ImageF image;
@@ -89,6 +125,12 @@ ImageF readImage(const std::filesystem::path& path) {
     image.rgb[k] = static_cast<float>(linearFromSrgb(pixels[k] / 65535.0));
   }
   return image;
+}
+
+bool holdsLight(const std::filesystem::path& path) {
+  const std::string bytes = readFile(path);
+  return isPfm(bytes) || stbi_is_hdr_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()),
+                                                 static_cast<int>(bytes.size()));
 }
 
 }  // namespace unshot

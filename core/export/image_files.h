@@ -1,4 +1,5 @@
-// Pictures in files: PNG (8 bits, sRGB) and Radiance HDR (linear). Home of stb_image and stb_image_write.
+// Pictures in files: PNG (8 bits, sRGB), Radiance HDR and, to be read, PFM (both linear). Home of stb_image
+// and stb_image_write.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +19,12 @@ void writePng(const std::filesystem::path& path, const Image8& image);
 /// negative or no number becomes 0. Throws Error (kEnvironment).
 void writeHdr(const std::filesystem::path& path, const ImageF& image);
 
-/// Reads a picture as linear values: HDR as it is, PNG and others (8 or 16 bits) decoded from sRGB to 0..1.
-/// Transparency is dropped. Throws Error (kInput).
+/// Reads a picture as linear values: HDR and PFM as they are, PNG and others (8 or 16 bits) decoded from sRGB
+/// to 0..1. Transparency is dropped. Throws Error (kInput).
 ImageF readImage(const std::filesystem::path& path);
+
+/// Whether the file holds linear light (HDR, PFM), not values of a display. Throws Error (kInput) where it
+/// cannot be read.
+bool holdsLight(const std::filesystem::path& path);
 
 }  // namespace unshot

@@ -5,7 +5,7 @@
 namespace unshot {
 
 std::span<const DisplayMode> displayModes() {
-  static constexpr std::array<DisplayMode, 12> table = {{
+  static constexpr std::array<DisplayMode, 15> table = {{
       {.info = {"radiosity", "Radiosity", "light as it leaves the surfaces, B = E + rho H, smooth"}},
       {.info = {"flat", "Radiosity per element", "each element in its own radiosity, as the solver sees it"},
        .per_element = true},
@@ -39,6 +39,22 @@ std::span<const DisplayMode> displayModes() {
        .tone_mapped = false,
        .exposed = false},
       {.info = {"mesh", "Mesh", "radiosity with the edges of the elements"}, .edges = true},
+      {.info = {"patches", "Patches", "what shoots: each patch in a colour that its neighbours do not have"},
+       .quantity = Quantity::kPatches,
+       .per_element = true,
+       .tone_mapped = false,
+       .exposed = false},
+      {.info =
+           {"sides", "Front and back",
+            "fronts blue, backs orange, by the winding in the file: where it is mixed up is seen at once"},
+       .quantity = Quantity::kSides,
+       .tone_mapped = false,
+       .exposed = false},
+      {.info = {"normals", "Normals",
+                "where surfaces face: x red, y green, z blue, from dark (against it) to light (along it)"},
+       .quantity = Quantity::kNormals,
+       .tone_mapped = false,
+       .exposed = false},
   }};
   return table;
 }

@@ -1,4 +1,5 @@
-// What a picture shows. A mode is a row; one that shows a new quantity adds its case to shaders/display.frag.
+// What a picture shows. A mode is a row; one that shows a new quantity adds its case to shaders/display.vert,
+// or to display_by_pixel.frag where it cannot be worked out at vertices.
 #pragma once
 
 #include <span>
@@ -8,7 +9,7 @@
 
 namespace unshot {
 
-/// What is drawn; the numbers are those of shaders/display.frag.
+/// What is drawn; the numbers are those of these shaders.
 enum class Quantity {
   kRadiosity = 0,
   kIrradiance = 1,
@@ -17,7 +18,10 @@ enum class Quantity {
   kReflectance = 4,
   kBounces = 5,
   kResidual = 6,
-  kDifference = 7
+  kDifference = 7,
+  kPatches = 8,
+  kSides = 9,
+  kNormals = 10
 };
 
 struct DisplayMode {

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "render/element_edges.h"
+#include "render/patch_colours.h"
 
 namespace unshot {
 namespace {
@@ -14,6 +15,10 @@ struct GpuVertex {
   glm::vec3 position, normal;
   std::uint32_t side;
 };
+
+// Which side of its surface is seen, as shaders/display.vert has it: of a surface without a lit side, the one
+// that faces the eye.
+constexpr float kFrontSide = 0, kBackSide = 1, kEitherSide = 2;
 
 glm::vec4 finiteTexel(const glm::dvec3& v) {
   return {finiteValue(v.x), finiteValue(v.y), finiteValue(v.z), 0.0f};
@@ -102,11 +107,13 @@ SceneBuffers::SceneBuffers(gl::Context& context)
       element_irradiance_(context),
       element_direct_(context),
       element_bounce_(context),
+      element_colours_(context),
       sides_texture_(context),
       triangle_elements_texture_(context),
       element_irradiance_texture_(context),
       element_direct_texture_(context),
-      element_bounce_texture_(context) {}
+      element_bounce_texture_(context),
+      element_colours_texture_(context) {}
 
 void SceneBuffers::begin(const std::shared_ptr<const Snapshot>& snapshot) {
   // Where fields were given up half way, it is not known what is there.
@@ -195,7 +202,9 @@ const gl::Texture& SceneBuffers::bind(const LightChoice& choice, Quantity quanti
   attribute(fn, 3, light.vertices, sizeof(glm::vec3), 0);
   if (const gl::Buffer* field = fieldOf(quantity)) attribute(fn, 5, *field, sizeof(glm::vec3), 0);
   fn.BindBuffer(GL_ARRAY_BUFFER, 0);
-  return light.elements;
+  if (quantity != Quantity::kPatches) return light.elements;
+  uploadPatchColours();
+  return element_colours_texture_;
 }
 
 void SceneBuffers::beginMesh(const std::shared_ptr<const Mesh>& shared_mesh) {
@@ -216,7 +225,7 @@ void SceneBuffers::beginMesh(const std::shared_ptr<const Mesh>& shared_mesh) {
   sendAll(mesh_uploads_, triangles_, own(mesh.triangle_vertices));
   triangle_index_count_ = static_cast<GLsizei>(mesh.triangle_vertices.size());
   triangle_blocks_ = TriangleBlocks(mesh);
-  edges_uploaded_ = false;
+  edges_uploaded_ = patch_colours_uploaded_ = false;
 
   beginSides(shared_mesh, unlit);
   sendAll(mesh_uploads_, triangle_elements_, own(mesh.triangle_element));
@@ -237,11 +246,13 @@ void SceneBuffers::beginSides(const std::shared_ptr<const Mesh>& shared_mesh, co
   auto sides = std::make_shared<std::vector<glm::vec4>>(std::max<std::size_t>(2 * shown, 1), glm::vec4(0.0f));
   for (std::size_t i = 0; i < mesh.sides.size(); ++i) {
     (*sides)[2 * i] = finiteTexel(mesh.sides[i].reflectance);
+    (*sides)[2 * i].w = mesh.sides[i].back ? kBackSide : kFrontSide;
     (*sides)[2 * i + 1] = finiteTexel(mesh.sides[i].emission);
   }
   for (std::size_t i = 0; i < unlit.surfaces.size(); ++i) {
     const Material& material = mesh.materials[mesh.surfaces[unlit.surfaces[i]].material];
     (*sides)[2 * (mesh.sides.size() + i)] = finiteTexel(material.reflectance);
+    (*sides)[2 * (mesh.sides.size() + i)].w = kEitherSide;
   }
   sendAll<glm::vec4>(mesh_uploads_, sides_, std::move(sides));
 }
@@ -298,6 +309,17 @@ void SceneBuffers::uploadEdges() {
   fn.BindBuffer(GL_COPY_WRITE_BUFFER, 0);
   edge_index_count_ = static_cast<GLsizei>(pairs.size());
   edges_uploaded_ = true;
+}
+
+void SceneBuffers::uploadPatchColours() {
+  if (patch_colours_uploaded_) return;
+  const std::vector<std::uint8_t> colours = patchColours(*mesh_);
+  auto texels = std::make_shared<std::vector<glm::vec3>>();
+  texels->reserve(mesh_->element_count);
+  for (const std::uint32_t patch : mesh_->element_patch) texels->push_back(kPatchPalette[colours[patch]]);
+  send<glm::vec4>(element_colours_, std::move(texels), mesh_->element_count);
+  attachTexels(context_.functions(), element_colours_texture_, GL_RGBA32F, element_colours_);
+  patch_colours_uploaded_ = true;
 }
 
 }  // namespace unshot

@@ -29,10 +29,12 @@ class SceneBuffers {
   std::size_t uploadBytes() const { return mesh_uploads_.bytes() + field_uploads_.bytes(); }
   /// Where that is not done yet, for display modes that show them.
   void uploadEdges();
+  /// The same for colours of patches.
+  void uploadPatchColours();
 
   /// Binds the vertex array with the light and the quantity that are meant, brought up to date. Returns the
-  /// same light of the elements. `reference`: what kDifference compares with, where it is of this mesh; else
-  /// direct light alone.
+  /// same light of the elements, or their colours where the quantity is that. `reference`: what kDifference
+  /// compares with, where it is of this mesh; else direct light alone.
   const gl::Texture& bind(const LightChoice& light, Quantity quantity,
                           const std::shared_ptr<const ReferenceLight>& reference);
   /// Binds the vertex array of surfaces without a lit side: no light, nothing of any quantity.
@@ -87,13 +89,14 @@ class SceneBuffers {
       reference_;
   TriangleBlocks triangle_blocks_;
   gl::Buffer triangles_, edges_, unlit_;
-  gl::Buffer sides_, triangle_elements_, element_irradiance_, element_direct_, element_bounce_;
+  gl::Buffer sides_, triangle_elements_, element_irradiance_, element_direct_, element_bounce_,
+      element_colours_;
   gl::Texture sides_texture_, triangle_elements_texture_, element_irradiance_texture_,
-      element_direct_texture_, element_bounce_texture_;
+      element_direct_texture_, element_bounce_texture_, element_colours_texture_;
   GLsizei triangle_index_count_ = 0;
   GLsizei edge_index_count_ = 0;
   std::size_t unlit_corners_ = 0;
-  bool edges_uploaded_ = false;
+  bool edges_uploaded_ = false, patch_colours_uploaded_ = false;
 };
 
 }  // namespace unshot

@@ -9,19 +9,12 @@
 namespace unshot {
 namespace {
 
-// Linear values of the display: a neutral dark grey, sRGB 26.
-constexpr float kBackground = 0.0103f;
 constexpr int kMeteredPixels = 144 * 108;
 void bindTexture(const gl::Functions& fn, const gl::Program& program, const char* name, int unit,
                  GLenum target, GLuint texture) {
   fn.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
   fn.BindTexture(target, texture);
   fn.Uniform1i(program.uniform(name), unit);
-}
-
-double exposureOf(const ViewOptions& options, const LinearTarget& picture) {
-  const std::vector<glm::vec4> pixels = picture.read();
-  return displayMode(options.display).false_colour ? scaleExposure(pixels) : automaticExposure(pixels);
 }
 
 }  // namespace
@@ -67,7 +60,8 @@ void SceneView::useDisplay(const gl::Program& program, const glm::mat4& matrix, 
   program.use();
   const glm::vec4 eye = homogeneousEye(camera, buffers_.bounds());
   // The ambient term is no part of any solution, so that none is compared with it.
-  const bool with_ambient = options.ambient && options.light.all() && mode.quantity != Quantity::kDifference;
+  const bool with_ambient = options.ambient && options.light.all() &&
+                            mode.quantity != Quantity::kDifference && mode.quantity != Quantity::kPatches;
   fn.UniformMatrix4fv(program.uniform("view_projection"), 1, GL_FALSE, glm::value_ptr(matrix));
   fn.Uniform4fv(program.uniform("eye"), 1, glm::value_ptr(eye));
   fn.Uniform1f(program.uniform("ambient_weight"), with_ambient ? 1.0f : 0.0f);
@@ -171,7 +165,7 @@ double SceneView::exposureFor(const Camera& camera, double aspect, const ViewOpt
       small_, std::max(1, static_cast<int>(std::lround(kMeteredPixels / height))), static_cast<int>(height));
   small.bind();
   drawLinear(camera, aspect, {}, options, false);
-  return exposureOf(options, small);
+  return meter(small.read(), options);
 }
 
 void SceneView::useFalseColour(const gl::Program& program, const FalseColour* how, double scale) const {
@@ -206,7 +200,7 @@ void SceneView::resolve(const LinearTarget& samples, double automatic_exposure, 
   fn.Uniform1i(program.uniform("factor"), options.supersampling);
   fn.Uniform2i(program.uniform("origin"), viewport.x, viewport.y - first_row);
   fn.Uniform1f(program.uniform("exposure"), finiteValue(scale));
-  fn.Uniform1i(program.uniform("tone_mapped"), mode.tone_mapped);
+  fn.Uniform1i(program.uniform("tone_curve"), mode.tone_mapped ? toneCurveNumber(options.tone) : -1);
   useFalseColour(program, mode.false_colour ? &options.false_colour : nullptr, scale);
   fn.Uniform3f(program.uniform("background"), kBackground, kBackground, kBackground);
   const bool shows_light = mode.quantity == Quantity::kRadiosity || mode.quantity == Quantity::kEmission;
@@ -220,8 +214,13 @@ void SceneView::resolve(const LinearTarget& samples, double automatic_exposure, 
   fn.BindVertexArray(0);
 }
 
-double SceneView::meter(const LinearTarget& samples, const ViewOptions& options) {
-  if (!displayMode(options.display).tone_mapped) return 1;
+double SceneView::meter(std::span<const glm::vec4> small, const ViewOptions& options) {
+  const DisplayMode& mode = displayMode(options.display);
+  if (!mode.tone_mapped) return 1;
+  return mode.false_colour ? scaleExposure(small) : automaticExposure(small);
+}
+
+std::vector<glm::vec4> SceneView::smallCopy(const LinearTarget& samples) {
   const gl::Functions& fn = context_.functions();
   const double aspect = static_cast<double>(samples.width()) / samples.height();
   const double height = std::clamp(std::sqrt(kMeteredPixels / aspect), 1.0, double{kMeteredPixels});
@@ -231,7 +230,7 @@ double SceneView::meter(const LinearTarget& samples, const ViewOptions& options)
   small.bindForDrawing();
   fn.BlitFramebuffer(0, 0, samples.width(), samples.height(), 0, 0, small.width(), small.height(),
                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  return exposureOf(options, small);
+  return small.read();
 }
 
 double SceneView::draw(const Camera& camera, const ViewOptions& options, const Viewport& viewport) {
@@ -241,7 +240,8 @@ double SceneView::draw(const Camera& camera, const ViewOptions& options, const V
       target(samples_, viewport.width * options.supersampling, viewport.height * options.supersampling);
   samples.bind();
   drawLinear(camera, static_cast<double>(viewport.width) / viewport.height, {}, options);
-  const double exposure = options.automatic_exposure ? *options.automatic_exposure : meter(samples, options);
+  const double exposure =
+      options.automatic_exposure ? *options.automatic_exposure : meter(smallCopy(samples), options);
   context_.functions().BindFramebuffer(GL_FRAMEBUFFER, guard.drawFramebuffer());
   resolve(samples, exposure, options, viewport);
   return exposure;

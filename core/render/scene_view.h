@@ -8,8 +8,11 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
+#include "base/tone.h"
 #include "gl/objects.h"
 #include "render/camera.h"
 #include "render/display_modes.h"
@@ -25,6 +28,7 @@ namespace unshot {
 struct ViewOptions {
   std::string display = "radiosity";  ///< key of a display mode
   double exposure_ev = 0;             ///< stops relative to the automatic exposure
+  std::string tone{kUsualTone};       ///< key of a tone curve
   bool ambient = true;                ///< add the ambient term
   int supersampling = 1;              ///< samples along a pixel's side
   /// Keeps this automatic exposure (what `draw` returned) instead of finding it again.
@@ -36,6 +40,9 @@ struct ViewOptions {
   /// light alone.
   std::shared_ptr<const ReferenceLight> reference;
 };
+
+/// Where a picture shows nothing: a neutral dark grey, linear values of the display (sRGB 26).
+inline constexpr float kBackground = 0.0103f;
 
 /// A rectangle of the bound framebuffer [px], from its lower left.
 struct Viewport {
@@ -88,8 +95,10 @@ class SceneView {
   /// The same for some of its pieces; the first one clears. Those that the view cannot see are passed over.
   DrawnPieces drawPieces(const Camera& camera, double aspect, const FrameWindow& window,
                          const ViewOptions& options, Pieces pieces);
-  /// Automatic exposure of `samples`, which become bound; 1 for modes that are not tone-mapped.
-  double meter(const LinearTarget& samples, const ViewOptions& options);
+  /// A small copy of `samples`, which become bound: what meter() looks at.
+  std::vector<glm::vec4> smallCopy(const LinearTarget& samples);
+  /// Automatic exposure by a small copy; 1 for modes that are not tone-mapped.
+  static double meter(std::span<const glm::vec4> small, const ViewOptions& options);
   /// Shows `samples` (options.supersampling along a pixel's side), from their pixel row `first_row` on, in
   /// `viewport` of the bound framebuffer.
   void resolve(const LinearTarget& samples, double automatic_exposure, const ViewOptions& options,

@@ -114,6 +114,9 @@ class RoomBuilder {
         mesh.triangle_element.insert(mesh.triangle_element.end(), {element, element});
         mesh.element_side.push_back(side_index);
         mesh.element_area.push_back(surface.area / (n * n));
+        mesh.element_patch.push_back(mesh.patch_count++);
+        mesh.patch_side.push_back(side_index);
+        mesh.patch_area.push_back(surface.area / (n * n));
         const glm::dvec3 p = origin + u * ((i + 0.5) / n) + v * ((j + 0.5) / n);
         snapshot_.element_irradiance.push_back(irradianceAt(p, surface.normal));
       }

@@ -132,6 +132,34 @@ TEST(Ply, RefusesWhatItCannotRead) {
   EXPECT_TRUE(refused(huge));
 }
 
+// Two pixels above two others; either order of bytes.
+TEST(ImageFiles, ReadPortableFloatMaps) {
+  const TempFolder folder;
+  const std::vector<float> rows = {7, 8, 9, 10, 11, 12, 1, 2, 3, 4, 5, 6};  // the lowest row first
+  const std::string little(reinterpret_cast<const char*>(rows.data()), 4 * rows.size());
+  std::string big = little;
+  for (std::size_t k = 0; k < big.size(); k += 4) std::reverse(&big[k], &big[k] + 4);
+  const std::vector<float> wanted = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+  for (const auto& [head, body] :
+       {std::pair<std::string, std::string>("PF\n2 2\n-1.0\n", little), {"PF 2 2 1\n", big}}) {
+    folder.write("map.pfm", head + body);
+    const ImageF image = readImage(folder / "map.pfm");
+    EXPECT_EQ(std::pair(image.width, image.height), std::pair(2, 2));
+    EXPECT_EQ(image.rgb, wanted) << head;
+    EXPECT_TRUE(holdsLight(folder / "map.pfm"));
+  }
+  folder.write("grey.pfm", "Pf\n3 1\n-1\n" + little.substr(0, 12));
+  EXPECT_EQ(readImage(folder / "grey.pfm").rgb, (std::vector<float>{7, 7, 7, 8, 8, 8, 9, 9, 9}));
+  for (const std::string& broken :
+       {"PF\n2 2\n-1.0\n" + little.substr(1), std::string("PF"), "PF\n-2 2\n-1\n" + little,
+        "PF\n2 2\n-1\n" + little + "x", std::string("PF\n99999999999 1 1\n")}) {
+    folder.write("broken.pfm", broken);
+    EXPECT_THROW(readImage(folder / "broken.pfm"), Error) << broken.substr(0, 12);
+  }
+  writePng(folder / "a.png", Image8{1, 1, {1, 2, 3}});
+  EXPECT_FALSE(holdsLight(folder / "a.png"));
+}
+
 TEST(Exporters, WriteWhatTheyAreGiven) {
   const TempFolder folder;
   const Snapshot room = testing_support::RoomBuilder({}).build();

@@ -90,6 +90,11 @@ std::string checkFraction(const std::string& text) {
   return number && *number > 0 && *number < 1 ? "" : "'" + text + "' does not lie between 0 and 1";
 }
 
+std::string checkShare(const std::string& text) {
+  const std::optional<double> number = parseNumber(text);
+  return number && *number >= 0 && *number <= 1 ? "" : "'" + text + "' is no number from 0 to 1";
+}
+
 std::string checkNumber(const std::string& text) {
   const std::optional<double> number = parseNumber(text);
   return number && std::abs(*number) <= 100 ? "" : "'" + text + "' is no number from -100 to 100";

@@ -59,6 +59,8 @@ std::pair<std::string, bool> materialAndSwitch(const std::string& text);
 std::string checkUnit(const std::string& text);
 
 std::string checkFraction(const std::string& text);
+/// From 0 to 1.
+std::string checkShare(const std::string& text);
 std::string checkNumber(const std::string& text);
 std::string checkBounces(const std::string& text);
 std::string checkScale(const std::string& text);

@@ -4,6 +4,7 @@
 #include <GLFW/glfw3.h>
 
 #include <array>
+#include <cctype>
 #include <vector>
 
 #include "base/error.h"
@@ -62,6 +63,15 @@ std::string checkArgument(const Action& action, const std::string& argument) {
   if (argument.empty() && action.needsArgument())
     return "'" + std::string(action.key) + "' needs " + std::string(action.argument);
   return action.check ? action.check(argument) : "";
+}
+
+std::string_view actionOfFile(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const char* picture : {".png", ".hdr", ".pfm", ".jpg", ".jpeg"}) {
+    if (ending == picture) return "reference-picture";
+  }
+  return "open";
 }
 
 const Action* actionOfKey(int key, bool ctrl) {

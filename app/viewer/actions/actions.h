@@ -2,6 +2,7 @@
 // group (solve_actions.cpp, display_actions.cpp ...).
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -56,6 +57,9 @@ const Action& findAction(std::string_view key);
 
 /// What is wrong with an action's argument, or nothing.
 std::string checkArgument(const Action& action, const std::string& argument);
+
+/// The action for a file that was dropped on the window: pictures are compared with, all else is opened.
+std::string_view actionOfFile(const std::filesystem::path& file);
 
 /// The action that a key stands for, or null.
 const Action* actionOfKey(int key, bool ctrl);

@@ -8,12 +8,11 @@
 #include "base/text.h"
 #include "formfactor/methods.h"
 #include "mesh/build.h"
-#include "render/display_modes.h"
 #include "solver/modes.h"
 #include "viewer/panels/bounce_panel.h"
 #include "viewer/panels/camera_panel.h"
+#include "viewer/panels/display_panel.h"
 #include "viewer/panels/error_panel.h"
-#include "viewer/panels/false_colour_panel.h"
 #include "viewer/panels/materials_panel.h"
 #include "viewer/panels/notes_panel.h"
 #include "viewer/panels/picked_panel.h"
@@ -27,14 +26,6 @@ namespace unshot {
 namespace {
 
 constexpr double kPanelWidth = 304;  // at scale 1 [px]
-
-template <class Row>
-std::string titleOf(std::span<const Row> table, const std::string& key) {
-  for (const Row& row : table) {
-    if (row.info.key == key) return std::string(row.info.title);
-  }
-  return key;
-}
 
 /// The title of what is in use: with `auto` what that became, once it is known.
 template <class Row>
@@ -198,52 +189,6 @@ void solveSection(Viewer& viewer) {
   chooseElements(viewer);
   chooseHemicube(viewer);
   chooseError(viewer);
-}
-
-void displaySection(Viewer& viewer) {
-  if (!section("Display")) return;
-  ViewerState& ui = viewer.ui();
-  label("Show", "M: the next one");
-  const std::string& shown = ui.settings.view.display;
-  const std::string mode =
-      choose("##display", displayModes(), shown, titleOf(displayModes(), shown), nullptr);
-  if (!mode.empty()) viewer.perform("display", mode);
-  falseColourChoices(viewer);
-  label("Difference", "What the display \"Difference\" compares with");
-  if (ImGui::Button("Remember")) viewer.perform("remember");
-  tooltip(
-      "K: the light as it is shown now. The display \"Difference\" then shows how what is shown differs from "
-      "it");
-  ImGui::SameLine();
-  const auto& reference = ui.settings.view.reference;
-  ImGui::BeginDisabled(!reference);
-  if (ImGui::Button("Forget")) viewer.perform("forget");
-  tooltip(reference ? "Compared with " + reference->name : "Compared with direct light alone");
-  ImGui::EndDisabled();
-  bool on = ui.settings.view.light.indirect;
-  if (ImGui::Checkbox("Radiosity", &on)) viewer.perform("radiosity", on ? "on" : "off");
-  tooltip(
-      "B: with all light that goes back and forth between surfaces, or without: only what comes straight "
-      "from lamps");
-  ImGui::SameLine(9.0f * ImGui::GetFontSize());
-  ImGui::BeginDisabled(!ui.settings.view.light.all());
-  on = ui.settings.view.ambient;
-  if (ImGui::Checkbox("Ambient term", &on)) viewer.perform("ambient", on ? "on" : "off");
-  tooltip(
-      "G: adds an estimate of the light still unshot, sum A U / sum A / (1 - mean rho), so that a solve in "
-      "its first "
-      "moments looks nearly finished. Never part of the solution");
-  ImGui::EndDisabled();
-  label("Exposure", "Stops (factors of two) brighter than the automatic exposure; + and \u2212");
-  float ev = static_cast<float>(ui.settings.view.exposure_ev);
-  if (ImGui::SliderFloat("##exposure", &ev, -6, 6, "%+.1f EV")) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.2f", static_cast<double>(ev));
-    viewer.perform("exposure", text);
-  }
-  on = ui.settings.exposure_locked;
-  if (ImGui::Checkbox("Keep this exposure", &on)) viewer.perform("lock-exposure", on ? "on" : "off");
-  tooltip("L: otherwise it follows what is in view");
 }
 
 void figuresSection(Viewer& viewer) {

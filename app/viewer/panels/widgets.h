@@ -34,6 +34,15 @@ void paragraph(const char* name, std::string_view text);
 /// The text broken into lines no wider than this [px], as far as its words allow it.
 std::string brokenText(std::string_view text, float width);
 
+/// The title of a table's row; the key itself where there is none.
+template <class Row>
+std::string titleOf(std::span<const Row> table, std::string_view key) {
+  for (const Row& row : table) {
+    if (row.info.key == key) return std::string(row.info.title);
+  }
+  return std::string(key);
+}
+
 /// A choice from a table: `shown` is what stands in the closed box, `current` the key that is marked. Returns
 /// the key chosen, or nothing.
 template <class Row>

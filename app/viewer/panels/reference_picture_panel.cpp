@@ -1,0 +1,116 @@
+#include "viewer/panels/reference_picture_panel.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "base/text.h"
+#include "viewer/comparison.h"
+#include "viewer/panels/widgets.h"
+
+namespace unshot {
+namespace {
+
+constexpr ImGuiWindowFlags kOver = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing;
+
+void setWipe(Viewer& viewer, double place) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4f", std::clamp(place, 0.0, 1.0));
+  viewer.perform("wipe", text);
+}
+
+std::string errorText(const ReferencePicture& picture) {
+  return picture.error() ? "RMS difference " + percentText(*picture.error()) : "not compared yet";
+}
+
+constexpr const char* kErrorTip =
+    "RMS of the difference over RMS of the reference, over pixels and channels, of what is displayed, in "
+    "linear values: as unshot "
+    "compare does it with two PNG files";
+
+void name(const char* id, const std::string& text, float x, float pivot) {
+  const float em = ImGui::GetFontSize();
+  ImGui::SetNextWindowPos({x, 0.7f * em}, ImGuiCond_Always, {pivot, 0});
+  ImGui::SetNextWindowBgAlpha(0.85f);
+  ImGui::Begin(id, nullptr, kOver | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::End();
+}
+
+/// The line between both, to be dragged.
+void divider(Viewer& viewer, const ReferencePicture& picture, float width, float bottom) {
+  const float em = ImGui::GetFontSize(), grip = em;
+  const float x = std::round(static_cast<float>(viewer.ui().wipe) * width);
+  const float left = std::clamp(x - grip / 2, 0.0f, std::max(width - grip, 0.0f));
+  ImGui::SetNextWindowPos({left, 0});
+  ImGui::SetNextWindowSize({grip, bottom});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+  ImGui::Begin("wipe", nullptr,
+               kOver | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoBringToFrontOnFocus);
+  ImGui::InvisibleButton("line", {grip, bottom});
+  const bool held = ImGui::IsItemActive(), over = ImGui::IsItemHovered();
+  if (held || over) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  if (held && ImGui::GetIO().MouseDelta.x != 0)
+    setWipe(viewer, static_cast<double>(ImGui::GetIO().MousePos.x / width));
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImU32 colour = ImGui::GetColorU32(held || over ? ImGuiCol_PlotLines : ImGuiCol_Text);
+  const float thick = std::max(1.0f, std::round(0.12f * em));
+  list.AddRectFilled({x - thick, 0}, {x + thick, bottom}, IM_COL32(0, 0, 0, 120));
+  list.AddRectFilled({x - thick / 2, 0}, {x + thick / 2, bottom}, colour);
+  list.AddCircleFilled({left + grip / 2, bottom / 2}, 0.42f * em, colour, 24);
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+  // A name goes where its side is too narrow for it.
+  const auto room = [&](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x + 4 * em; };
+  if (x > room("Unshot")) name("wipe-ours", "Unshot", x - 0.8f * em, 1);
+  if (width - x > room(picture.name())) name("wipe-theirs", picture.name(), x + 0.8f * em, 0);
+}
+
+void figure(const ReferencePicture& picture, bool difference, float width, float bottom) {
+  const float em = ImGui::GetFontSize();
+  ImGui::SetNextWindowPos({width - 0.7f * em, bottom - 0.7f * em}, ImGuiCond_Always, {1, 1});
+  ImGui::SetNextWindowBgAlpha(0.85f);
+  ImGui::Begin("reference picture", nullptr, kOver | ImGuiWindowFlags_AlwaysAutoResize);
+  if (difference) differenceScale("Unshot \u2212 " + picture.name(), "of white", width);
+  ImGui::TextUnformatted(errorText(picture).c_str());
+  tooltip(kErrorTip);
+  ImGui::End();
+}
+
+}  // namespace
+
+void referencePictureChoices(Viewer& viewer) {
+  const ReferencePicture* picture = viewer.referencePicture();
+  if (!picture) return;
+  label("Compare", kErrorTip);
+  bool difference = viewer.ui().picture_difference;
+  if (ImGui::Checkbox("Difference##picture", &difference))
+    viewer.perform("picture-difference", difference ? "on" : "off");
+  tooltip("The difference from " + picture->name() + " as colours, instead of both side by side");
+  ImGui::SameLine();
+  if (ImGui::Button("Close##picture")) return viewer.perform("forget-picture");
+  tooltip("Without the picture " + picture->name());
+  label("Wipe",
+        "How much of the width shows the scene, the rest shows the reference picture. The line itself can be "
+        "dragged");
+  ImGui::BeginDisabled(difference);
+  auto wipe = static_cast<float>(100 * viewer.ui().wipe);
+  if (ImGui::SliderFloat("##wipe", &wipe, 0, 100, "%.0f %%"))
+    setWipe(viewer, static_cast<double>(wipe) / 100);
+  ImGui::EndDisabled();
+}
+
+void buildReferencePicture(Viewer& viewer, int scene_width, float bottom) {
+  const ReferencePicture* picture = viewer.referencePicture();
+  if (!picture || scene_width <= 0) return;
+  const bool difference = viewer.ui().picture_difference;
+  if (!difference) divider(viewer, *picture, static_cast<float>(scene_width), bottom);
+  figure(*picture, difference, static_cast<float>(scene_width), bottom);
+}
+
+}  // namespace unshot

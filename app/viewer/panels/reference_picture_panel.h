@@ -1,0 +1,16 @@
+// A picture from elsewhere over that of the scene: its rows in the panel, the line between both, and how far
+// they are apart.
+#pragma once
+
+#include "viewer/viewer.h"
+
+namespace unshot {
+
+/// Rows of the panel; nothing where no picture is loaded.
+void referencePictureChoices(Viewer& viewer);
+
+/// The line, which can be dragged, with names at its sides or a scale, and the figure, over the scene above
+/// y = `bottom`.
+void buildReferencePicture(Viewer& viewer, int scene_width, float bottom);
+
+}  // namespace unshot

@@ -1,0 +1,40 @@
+#version 330 core
+// The picture of the scene beside or against one that was loaded (app/viewer/reference_picture.h). In alpha: whether the two
+// are compared here.
+#include "colour.glsl"
+#include "difference.glsl"
+#include "tone.glsl"
+
+uniform sampler2D ours;       // as displayed, as large as the picture
+uniform sampler2D reference;  // linear, fitted by its height
+uniform vec2 size;            // of the picture [px]
+uniform float across;         // widths of the reference in that of the picture
+uniform vec3 background;      // of ours, as displayed
+uniform float exposure;
+uniform int tone_curve;       // in core/base/tone.cpp; -1: the reference holds values of a display
+uniform float wipe;           // column from which on the reference is shown [px]
+uniform bool difference;
+
+out vec4 pixel;
+
+vec3 linearFromSrgb(vec3 c) {
+  return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), step(0.04045, c));
+}
+
+void main() {
+  vec3 mine = texelFetch(ours, ivec2(gl_FragCoord.xy), 0).rgb;
+  vec2 at = gl_FragCoord.xy / size;
+  at.x = 0.5 + (at.x - 0.5) * across;
+  if (at.x < 0.0 || at.x > 1.0) {
+    pixel = vec4(difference ? vec3(0.1) : mine, 0.0);
+    return;
+  }
+  vec3 theirs = max(texture(reference, at).rgb, 0.0);
+  // Nothing in either, whose two ways to show it do not count.
+  bool nothing = theirs == vec3(0.0) && all(lessThan(abs(mine - background), vec3(0.002)));
+  theirs = tone_curve < 0 ? min(theirs, 1.0) : toneMap(tone_curve, min(theirs * exposure, vec3(1e4)));
+  vec3 shown = gl_FragCoord.x < wipe ? mine : srgbFromLinear(theirs);
+  if (difference) shown = srgbFromLinear(differenceColour(luminance(linearFromSrgb(mine) - theirs)));
+  if (difference && nothing) shown = vec3(0.1);
+  pixel = vec4(shown, nothing ? 0.0 : 1.0);
+}
