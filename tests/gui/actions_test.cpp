@@ -7,6 +7,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "export/image_files.h"
 #include "export/ply.h"
 #include "formfactor/methods.h"
 #include "render/display_modes.h"
@@ -93,6 +94,12 @@ const std::map<std::string_view, std::string>& validArguments() {
       {"panel", "off"},
       {"help", "on"},
       {"notes", "on"},
+      {"status", "off"},
+      {"tone", "filmic"},
+      {"histogram", "on"},
+      {"reference-picture", "picture.png"},
+      {"wipe", "0.25"},
+      {"picture-difference", "on"},
       {"plot", "rows"},
       {"bounces", "2"},
       {"reference", "solution.ply"},
@@ -109,7 +116,7 @@ const std::map<std::string_view, std::string>& validArguments() {
       {"unit", "683"},
       {"isolines", "off"},
       {"logarithmic", "on"},
-      {"pick", "0.5,0.7"},
+      {"pick", "0.5,0.6"},
       {"unpin-probe", "1"},
       {"save-probes", "with.csv"},
   };
@@ -166,6 +173,8 @@ LiveViewer::Options cornellBox() {
   LiveViewer::Options options;
   options.scene = kScenes + "cornell_box.obj";
   options.solve.elements = 200;
+  options.width = 640;
+  options.height = 360;
   return options;
 }
 
@@ -205,6 +214,8 @@ TEST_F(EveryAction, PerformsOnALiveViewer) {
       SCOPED_TRACE(std::string(action.key) + (with ? " " + valid->second : ""));
       if (action.key == "reference")
         writeWholeFile("solution.ply", plyBytes(*live->state().snapshot, false, 1));
+      if (action.key == "reference-picture")
+        writePng("picture.png", Image8{2, 1, {255, 128, 0, 0, 128, 255}});
       performAndSettle(live, action, with ? valid->second : "");
       ASSERT_FALSE(live->error()) << live->error()->fullText();
     }
@@ -218,7 +229,7 @@ TEST_F(EveryAction, PerformsOnALiveViewer) {
             (std::set<std::string>{"with.png", "without.png", "solution.ply", "unshot-two_patches-001.png",
                                    "unshot-two_patches-002.png", "with.unshot",
                                    "unshot-two_patches-001.unshot", "with.mtl", "unshot-two_patches-001.mtl",
-                                   "with.csv", "unshot-two_patches-001.csv"}));
+                                   "with.csv", "unshot-two_patches-001.csv", "picture.png"}));
 }
 
 TEST_F(EveryAction, WithoutASceneNoneCrashes) {

@@ -38,7 +38,9 @@ void bounceBars(const std::vector<glm::dvec3>& power, ImVec2 at, float slot, flo
     if (k % 2 != 0 && power.size() > 9) continue;
     const std::string number = std::to_string(k);
     const float half = ImGui::CalcTextSize(number.c_str()).x / 2;
-    list.AddText({std::round(left + slot / 2 - half - 1), at.y + height + 1},
+    // The last one stays within the bars.
+    const float end = at.x + slot * static_cast<float>(power.size()) - 2 * half;
+    list.AddText({std::floor(std::min(left + slot / 2 - half - 1, end)), at.y + height + 1},
                  ImGui::GetColorU32(ImGuiCol_TextDisabled), number.c_str());
   }
 }

@@ -84,10 +84,14 @@ void editMaterial(Viewer& viewer, const Material& m) {
 void editButtons(Viewer& viewer) {
   const MaterialEdits& edits = viewer.edits();
   const float gap = ImGui::GetStyle().ItemSpacing.x;
-  const float width = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
+  const auto textWidth = [](const char* text) {
+    return ImGui::CalcTextSize(text).x + 2 * ImGui::GetStyle().FramePadding.x;
+  };
+  const float texts = textWidth("Undo") + textWidth("Redo") + textWidth("Reset") + textWidth("Save MTL");
+  const float spare = std::max((ImGui::GetContentRegionAvail().x - 3 * gap - texts) / 4, 0.0f);
   const auto button = [&](const char* text, const char* action, bool enabled, const char* tip) {
     ImGui::BeginDisabled(!enabled);
-    if (ImGui::Button(text, {width, 0})) viewer.perform(action);
+    if (ImGui::Button(text, {textWidth(text) + spare, 0})) viewer.perform(action);
     tooltip(tip);
     ImGui::EndDisabled();
   };

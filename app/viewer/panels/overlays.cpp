@@ -29,12 +29,14 @@ constexpr std::array<MouseRow, 8> kMouse = {{{"Click", "What is there: light, el
                                              {"Wheel while looking", "Speed of flight"},
                                              {"Drop a file", "Open an OBJ scene"}}};
 
-void helpRow(const char* keys, const std::string& what) {
+void helpRow(const char* keys, const std::string& what, float room) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::TextUnformatted(keys);
   ImGui::TableNextColumn();
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + room);
   ImGui::TextUnformatted(what.c_str());
+  ImGui::PopTextWrapPos();
 }
 
 void helpHeading(const char* text) {
@@ -49,13 +51,14 @@ void helpWindow(float middle) {
   ImGui::SetNextWindowSizeConstraints({0, 0}, {2 * middle, height});
   ImGui::SetNextWindowBgAlpha(0.94f);
   ImGui::Begin("help", nullptr, kFixed);
+  const float room = 2 * middle - 13 * ImGui::GetFontSize();  // beside the keys
   if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
     helpHeading("Moving");
-    for (const MouseRow& row : kMouse) helpRow(row.keys, row.what);
+    for (const MouseRow& row : kMouse) helpRow(row.keys, row.what, room);
     helpHeading("Keys");
     for (const Action& action : actions()) {
       if (action.shortcut.key != 0)
-        helpRow(std::string(action.shortcut.text).c_str(), std::string(action.help));
+        helpRow(std::string(action.shortcut.text).c_str(), std::string(action.help), room);
     }
     ImGui::EndTable();
   }

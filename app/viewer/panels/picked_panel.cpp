@@ -12,18 +12,6 @@
 namespace unshot {
 namespace {
 
-/// As much of the text as is no wider than this [px].
-std::string shortened(const std::string& text, float width) {
-  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
-  std::string out = text;
-  while (!out.empty() && ImGui::CalcTextSize((out + "\u2026").c_str()).x > width) {
-    // Whole characters of UTF-8.
-    while (out.size() > 1 && (static_cast<unsigned char>(out.back()) & 0xc0u) == 0x80u) out.pop_back();
-    out.pop_back();
-  }
-  return out + "\u2026";
-}
-
 /// A line whose value may be too long for it: then the tooltip has all of it.
 void nameLine(const char* name, const std::string& value, const std::string& tip) {
   const std::string shown = shortened(value, ImGui::GetContentRegionAvail().x - 5.0f * ImGui::GetFontSize());

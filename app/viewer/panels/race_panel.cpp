@@ -26,10 +26,14 @@ const char* endingOf(const LaneState& lane) {
   }
 }
 
-// "0.52 s, 3 % unshot": what both have from the first moment.
-std::string standing(const LaneState& lane) {
-  return endingOf(lane) + durationText(lane.measures.seconds) + ", " +
-         percentText(lane.measures.unshot_fraction) + " unshot";
+// "0.52 s, 3 % unshot", what both have from the first moment, or as much of it as is no wider than this.
+std::string standing(const LaneState& lane, float width) {
+  const std::string unshot = percentText(lane.measures.unshot_fraction) + " unshot";
+  const std::string moment = durationText(lane.measures.seconds) + ", " + unshot;
+  for (const std::string& text : {endingOf(lane) + moment, moment}) {
+    if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
+  }
+  return unshot;
 }
 
 void raceLabel(const char* id, const LaneState& lane, bool rival, float middle, float width) {
@@ -42,8 +46,9 @@ void raceLabel(const char* id, const LaneState& lane, bool rival, float middle, 
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing |
                    ImGuiWindowFlags_NoInputs);
   dot(raceColour(rival));
-  ImGui::TextUnformatted(modeTitle(lane).c_str());
-  ImGui::TextDisabled("%s", standing(lane).c_str());
+  const float room = width - 2 * ImGui::GetStyle().WindowPadding.x;
+  ImGui::TextUnformatted(shortened(modeTitle(lane), room - em).c_str());
+  ImGui::TextDisabled("%s", standing(lane, room).c_str());
   ImGui::End();
 }
 
@@ -65,7 +70,7 @@ void chooseRival(Viewer& viewer) {
         "pictures and two curves side by side");
   ImGui::BeginDisabled(!state.facts);
   const std::string shown = state.rival ? modeTitle(*state.rival) : "nothing";
-  if (ImGui::BeginCombo("##race", shown.c_str(), ImGuiComboFlags_HeightLarge)) {
+  if (beginCombo("##race", shown)) {
     if (ImGui::Selectable("nothing", !state.rival)) viewer.perform("race", "off");
     for (const IterationModeRow& row : iterationModes()) {
       const std::string title(row.info.title);

@@ -74,4 +74,23 @@ std::string brokenText(std::string_view text, float width) {
   return out + line;
 }
 
+std::string shortened(const std::string& text, float width) {
+  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
+  std::string out = text;
+  while (!out.empty() && ImGui::CalcTextSize((out + "\u2026").c_str()).x > width) {
+    // Whole characters of UTF-8.
+    while (out.size() > 1 && (static_cast<unsigned char>(out.back()) & 0xc0u) == 0x80u) out.pop_back();
+    out.pop_back();
+  }
+  return out + "\u2026";
+}
+
+bool beginCombo(const char* id, const std::string& shown) {
+  const float room = ImGui::CalcItemWidth() - ImGui::GetFrameHeight() - 2 * ImGui::GetStyle().FramePadding.x;
+  const std::string preview = shortened(shown, room);
+  const bool open = ImGui::BeginCombo(id, preview.c_str(), ImGuiComboFlags_HeightLarge);
+  if (!open && preview != shown) tooltip(shown);
+  return open;
+}
+
 }  // namespace unshot

@@ -31,6 +31,13 @@ void dimmed(const std::string& text);
 /// A name on the left, and beside it text over as many lines as it takes.
 void paragraph(const char* name, std::string_view text);
 
+/// As much of the text as is no wider than this [px], with an ellipsis where that is not all.
+std::string shortened(const std::string& text, float width);
+
+/// ImGui::BeginCombo with `shown` in the closed box, shortened where it is too long for it; the tooltip then
+/// has all of it.
+bool beginCombo(const char* id, const std::string& shown);
+
 /// The text broken into lines no wider than this [px], as far as its words allow it.
 std::string brokenText(std::string_view text, float width);
 
@@ -49,7 +56,7 @@ template <class Row>
 std::string choose(const char* id, std::span<const Row> table, const std::string& current,
                    const std::string& shown, const char* automatic) {
   std::string chosen;
-  if (!ImGui::BeginCombo(id, shown.c_str(), ImGuiComboFlags_HeightLarge)) return chosen;
+  if (!beginCombo(id, shown)) return chosen;
   if (automatic) {
     if (ImGui::Selectable("Automatic", current == "auto")) chosen = "auto";
     tooltip(automatic);

@@ -1,0 +1,175 @@
+// Nothing of the window lies over anything else, is cut off or goes beyond the screen: at several sizes and
+// scales, with every section and overlay open.
+#include <gtest/gtest.h>
+
+#include "export/image_files.h"
+#include "gui/support/gui_bench.h"
+#include "gui/support/gui_layout.h"
+#include "render/display_modes.h"
+#include "support/live_viewer.h"
+#include "support/temp_folder.h"
+
+namespace unshot {
+namespace {
+
+using testing_support::GuiBench;
+using testing_support::LayoutCheck;
+using testing_support::LiveViewer;
+using testing_support::TempFolder;
+
+// A check that finds nothing may look at nothing.
+TEST(LayoutCheck, FindsWhatIsWrong) {
+  GuiBench bench(640, 360);
+  const ImVec2 screen(640, 360);
+  const auto window = [](const char* name, const ImVec2& at, const char* text, float shift) {
+    ImGui::SetNextWindowPos(at);
+    ImGui::SetNextWindowSize({100, 60});
+    ImGui::Begin(name, nullptr, ImGuiWindowFlags_NoSavedSettings);
+    ImGui::TextUnformatted(text);
+    if (shift > 0) {
+      ImGui::SameLine(shift);
+      ImGui::TextUnformatted(text);
+    }
+    ImGui::End();
+  };
+  const auto content = [&] {
+    window("one", {50, 50}, "some text that is far too long for the window", 0);
+    window("other", {100, 80}, "words", 20);
+    window("away", {screen.x - 50, 200}, "short", 0);
+  };
+  bench.layOut(content);  // a window does not know yet how much is in it
+  bench.layOut(content);
+  std::string all;
+  for (const std::string& problem : LayoutCheck(screen).problems()) all += problem + "\n";
+  EXPECT_NE(all.find("window 'one' is too narrow"), std::string::npos) << all;
+  EXPECT_NE(all.find("window 'one' and window 'other' lie over each other"), std::string::npos) << all;
+  EXPECT_NE(all.find("window 'away' goes beyond the screen"), std::string::npos) << all;
+  EXPECT_NE(all.find(" under "), std::string::npos) << all;
+}
+
+/// A state of the window: what is done to get there, and to leave it.
+struct Step {
+  std::string action, argument;
+};
+struct State {
+  std::string name;
+  std::vector<Step> enter, leave;
+};
+
+struct Window {
+  int width, height;
+  double scale;
+};
+
+class Layout : public testing::TestWithParam<Window> {
+ protected:
+  void SetUp() override {
+    writePng(folder_ / "photograph.png", Image8{2, 1, {255, 128, 0, 0, 128, 255}});
+    ASSERT_TRUE(viewer_.untilPhase(SessionPhase::kConverged));
+    viewer_->perform("size", std::to_string(GetParam().width) + "x" + std::to_string(GetParam().height));
+    viewer_->setScale(GetParam().scale);
+    ASSERT_TRUE(viewer_.until([&] { return viewer_->nextFrame(0) > 1e30; }));
+  }
+
+  std::vector<State> states() const {
+    const Step off{"dismiss", ""};
+    std::vector<State> out = {
+        {"at rest", {}, {}},
+        {"help", {{"help", "on"}}, {{"help", "off"}}},
+        {"picked", {{"pick", "0.45,0.6"}}, {}},
+        {"probes",
+         {{"pin-probe", ""}, {"pick", "0.5,0.8"}, {"pin-probe", ""}},
+         {{"clear-probes", ""}, {"unpick", ""}}},
+        {"materials", {{"materials", "on"}, {"reflectance", "red 0.1,0.2,0.7"}}, {{"materials", "off"}}},
+        {"notes", {{"notes", "on"}}, {{"notes", "off"}}},
+        {"what is left out", {{"left-out", "on"}}, {{"left-out", "off"}}},
+        {"histogram", {{"histogram", "on"}}, {{"histogram", "off"}}},
+        {"bounces", {{"bounces", "2"}}, {{"bounces", "all"}}},
+        {"direct light", {{"radiosity", "off"}}, {{"radiosity", "on"}}},
+        {"remembered",
+         {{"remember", ""}, {"display", "difference"}},
+         {{"forget", ""}, {"display", "radiosity"}}},
+        {"wipe", {{"reference-picture", folder_ / "photograph.png"}, {"wipe", "0.5"}}, {}},
+        {"wiped away", {{"wipe", "0"}}, {}},
+        {"picture's difference",
+         {{"picture-difference", "on"}},
+         {{"picture-difference", "off"}, {"forget-picture", ""}}},
+        {"a message", {{"open", "a_scene_that_is_nowhere_in_any_folder_at_all.obj"}}, {off}},
+        {"race", {{"race", "jacobi"}}, {{"race", "off"}}},
+    };
+    for (const DisplayMode& mode : displayModes())
+      out.push_back({"display " + std::string(mode.info.key),
+                     {{"display", std::string(mode.info.key)}},
+                     {{"display", "radiosity"}}});
+    return out;
+  }
+
+  void perform(const std::vector<Step>& steps) {
+    for (const Step& step : steps) {
+      viewer_->perform(step.action, step.argument);
+      ASSERT_TRUE(viewer_.until([&] { return arrived(step); })) << step.action;
+    }
+  }
+
+  /// What is picked, opened or solved anew takes its time.
+  bool arrived(const Step& step) const {
+    const SessionState& state = viewer_->state();
+    if (step.action == "open" && !viewer_->error()) return false;
+    if (step.action == "race" && state.rival.has_value() != (step.argument != "off")) return false;
+    return state.phase != SessionPhase::kLoading && state.phase != SessionPhase::kRunning &&
+           viewer_->scriptDone();
+  }
+
+  /// Of the frame, with the panel at every place that it can be scrolled to.
+  std::set<std::string> problems() {
+    std::set<std::string> out;
+    const ImVec2 screen(static_cast<float>(viewer_.width()), static_cast<float>(viewer_.height()));
+    for (float at = 0;;) {
+      if (ImGuiWindow* sections = scrolled()) ImGui::SetScrollY(sections, at);
+      for (int frame = 0; frame < 3; ++frame) viewer_.draw();
+      out.merge(LayoutCheck(screen).problems());
+      const ImGuiWindow* sections = scrolled();
+      if (!sections || at >= sections->ScrollMax.y) return out;
+      at = std::min(at + 0.7f * sections->InnerRect.GetHeight(), sections->ScrollMax.y);
+    }
+  }
+
+  const TempFolder folder_;
+  mutable LiveViewer viewer_{
+      {std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj", options(), "", 640, 360}};
+
+ private:
+  static SolveOptions options() {
+    SolveOptions options;
+    options.elements = 300;
+    return options;
+  }
+  static ImGuiWindow* scrolled() {
+    for (ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+      if (window->Active && std::string(window->Name).starts_with("panel/sections")) return window;
+    }
+    return nullptr;
+  }
+};
+
+TEST_P(Layout, NothingLiesOverAnythingElseOrIsCutOff) {
+  for (const State& state : states()) {
+    SCOPED_TRACE(state.name);
+    perform(state.enter);
+    if (HasFatalFailure()) return;
+    EXPECT_EQ(viewer_->error().has_value(), state.name == "a message");
+    for (const std::string& problem : problems()) ADD_FAILURE() << problem;
+    perform(state.leave);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Gui, Layout,
+                         testing::Values(Window{640, 360, 1}, Window{960, 540, 1}, Window{1280, 800, 1},
+                                         Window{640, 360, 2}, Window{960, 540, 2}, Window{1280, 800, 2}),
+                         [](const auto& row) {
+                           return std::to_string(row.param.width) + "x" + std::to_string(row.param.height) +
+                                  "At" + std::to_string(static_cast<int>(row.param.scale));
+                         });
+
+}  // namespace
+}  // namespace unshot
