@@ -128,7 +128,7 @@ class PanelChoices : public testing::Test {
   }
 
   const Screen screen_;
-  WindowRun run_{{"--size", "900x860", "--elements", "100", "--error", "0.5"}};
+  WindowRun run_{{"--size", "900x1000", "--elements", "100", "--error", "0.5"}};
 };
 
 TEST_F(PanelChoices, RowsOfEveryTable) {

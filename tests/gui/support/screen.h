@@ -41,7 +41,7 @@ class Screen {
     int ends[2];
     if (::pipe(ends) != 0) throw std::runtime_error("no pipe");
     std::vector<std::string> words{"Xvfb",      "-displayfd", std::to_string(ends[1]),
-                                   "-screen",   "0",          "1280x900x24",
+                                   "-screen",   "0",          "1280x1060x24",
                                    "-nolisten", "tcp",        "-noreset"};
     words.insert(words.end(), further.begin(), further.end());
     std::vector<char*> argv;
