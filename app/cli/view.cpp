@@ -70,6 +70,7 @@ class ViewArguments {
     } else if (script_.empty()) {
       setup.memory = Memory::usualFolder();
     }
+    setup.watch = script_.empty();
     useShaderDir(solver_.shaderDir());
     checkScene(setup.scene);
     checkSave(setup.scene);

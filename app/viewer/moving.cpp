@@ -75,6 +75,21 @@ void Viewer::zoomAtMouse(double notches) {
   zoom_target_->camera = navigator_.camera();
 }
 
+/// The scene was read again, and may have another frame and other bounds: the camera stays where it was.
+void Viewer::followFrame(const SessionState& before) {
+  if (!before.snapshot || !state_->snapshot) return;
+  const Mesh &old = *before.snapshot->mesh, &mesh = *state_->snapshot->mesh;
+  const glm::dvec3 shift = old.frame_origin - mesh.frame_origin;
+  if (shift == glm::dvec3(0.0)) return;
+  const auto moved = [&](Camera camera) {
+    camera.eye += shift;
+    camera.at += shift;
+    return camera;
+  };
+  if (found_camera_) found_camera_ = moved(*found_camera_);
+  navigator_.reset(moved(navigator_.camera()), boundsOf(mesh));
+}
+
 void Viewer::frameScene() {
   frame_wanted_ = true;
   camera_from_memory_ = false;

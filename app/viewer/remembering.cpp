@@ -1,4 +1,5 @@
-// What the viewer takes from its memory and gives to it: the scene's camera, the panel's look.
+// What the viewer has to do with files between runs and while it runs: it remembers the scene's camera and
+// the panel's look, and reads a scene that has changed again.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -87,6 +88,27 @@ void Viewer::followSections(ImGuiStorage& sections) {
   sections_.clear();
   for (const ImGuiStorage::ImGuiStoragePair& pair : sections.Data)
     sections_.emplace_back(pair.key, pair.val_i);
+}
+
+void Viewer::reload() {
+  const std::filesystem::path scene = state_->facts ? state_->facts->scene_path : watch_.scene();
+  if (scene.empty())
+    throw Error(ErrorKind::kUsage, "there is no scene to read again", {}, "open a scene first");
+  keepScene();
+  open(scene);
+}
+
+void Viewer::keepScene() {
+  watch_.accept();
+  input();
+}
+
+void Viewer::watchScene(bool on) {
+  watching_ = on;
+  watch_.stop();
+  if (!on || !state_->facts) return;
+  watch_.opening(state_->facts->scene_path);
+  watch_.opened();
 }
 
 }  // namespace unshot

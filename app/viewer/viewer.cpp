@@ -46,6 +46,8 @@ Viewer::Viewer(ViewerSetup setup)
   recallPanel();
   applyScale();
   if (!script_.empty()) hold_.emplace(session_);
+  watching_ = setup_.watch;
+  if (watching_ && !setup_.scene.empty()) watch_.opening(setup_.scene);
   if (!setup_.scene.empty()) session_.open(setup_.scene, ui_.options, std::move(setup_.saved));
 }
 
@@ -79,6 +81,7 @@ void Viewer::update(double now) {
   }
   takeState(now);
   runScript(now);
+  if (watch_.look(now)) input();
   if (!notice_.empty() && now >= notice_until_) {
     notice_.clear();
     input();
@@ -101,6 +104,8 @@ void Viewer::takeState(double now) {
       rememberCamera(*before);
       frame_wanted_ = camera_from_memory_ = true;
       memory_.noteScene(state_->facts->scene_path);
+    } else {
+      followFrame(*before);
     }
   }
   takeMaterials();
@@ -109,6 +114,8 @@ void Viewer::takeState(double now) {
   noteSaved(*before);
   if (state_->problems > problems_seen_ && state_->problem) {
     problems_seen_ = state_->problems;
+    // Of a scene that cannot be read it is of interest when it is mended.
+    if (!state_->facts || samePath(watch_.sceneOpening(), state_->facts->scene_path)) watch_.opened();
     notice_.clear();
     // What was asked for is not to be had: the panel shows what is.
     if (state_->facts && session_.sent() == state_->commands) ui_.options = state_->facts->options;
@@ -121,10 +128,15 @@ void Viewer::takeMaterials() {
   if (!state_->snapshot || session_.sent() != state_->commands) return;
   const std::vector<Material>& materials = state_->snapshot->mesh->materials;
   const std::optional<std::uint64_t> opened = std::exchange(opening_, std::nullopt);
-  if (opened && state_->epoch > *opened)
+  if (opened && state_->epoch > *opened) {
     edits_.begin(materials);
-  else if (edits_.materials() != materials)
+    // Watching may have been switched on while it was read.
+    if (watching_ && watch_.sceneOpening() != state_->facts->scene_path)
+      watch_.opening(state_->facts->scene_path);
+    watch_.opened();
+  } else if (edits_.materials() != materials) {
     edits_.adopt(materials);
+  }
 }
 
 void Viewer::noteRates(double now) {
@@ -176,6 +188,8 @@ void Viewer::dismiss() {
     ui_.help = false;
   } else if (state_->phase == SessionPhase::kLoading) {
     giveUpLoading();
+  } else if (sceneChanged()) {
+    keepScene();
   } else {
     unpick();
   }
@@ -188,6 +202,7 @@ void Viewer::notice(std::string text) {
 }
 
 void Viewer::open(const std::filesystem::path& scene) {
+  if (watching_) watch_.opening(scene);
   session_.open(scene, ui_.options);
   opening_ = state_->epoch;
 }
@@ -368,7 +383,7 @@ void Viewer::runScriptLines(double now) {
 }
 
 double Viewer::nextUpdate() const {
-  double next = notice_.empty() ? kNever : notice_until_;
+  double next = std::min(notice_.empty() ? kNever : notice_until_, watch_.nextLook());
   if (script_at_ < script_.size() && script_[script_at_].wait == WaitFor::kSeconds && wait_began_ >= 0)
     next = std::min(next, wait_began_ + script_[script_at_].amount);
   return next;

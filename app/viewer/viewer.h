@@ -30,6 +30,7 @@
 #include "viewer/picking.h"
 #include "viewer/reference_picture.h"
 #include "viewer/scene_area.h"
+#include "viewer/scene_watch.h"
 #include "viewer/script.h"
 
 namespace unshot {
@@ -43,6 +44,7 @@ struct ViewerSetup {
   SolveOptions options;
   DisplaySettings settings;
   std::filesystem::path memory;  ///< the folder of what is remembered; empty: nothing is
+  bool watch = false;            ///< looks whether the scene's files change
   std::vector<ScriptLine> script;
   std::string script_name;
   /// Asks the window for another size [px]; may be empty.
@@ -148,6 +150,14 @@ class Viewer {
   double frameMilliseconds() const { return 1000 * frame_cost_; }
 
   void open(const std::filesystem::path& scene);
+  /// The present scene as its files are now; the camera stays.
+  void reload();
+  /// Whether they have changed since they were read, as far as they are watched.
+  bool sceneChanged() const { return watch_.changed(); }
+  /// Goes on with what was read.
+  void keepScene();
+  void watchScene(bool on);
+  bool watchingScene() const { return watching_; }
   /// Gives up what is being loaded, if anything is: the scene before stays.
   void giveUpLoading();
   /// Solves again from the start with ui().options.
@@ -276,6 +286,7 @@ class Viewer {
   SceneDisplay::Wanted wanted() const;
   std::shared_ptr<const Snapshot> rivalSnapshot() const;
   bool frame();
+  void followFrame(const SessionState& before);
   void applyScale();
   bool recallCamera();
   void rememberCamera(const SessionState& state);
@@ -303,6 +314,9 @@ class Viewer {
   MaterialEdits edits_;
   std::optional<std::uint64_t> opening_ = 0;  // another scene than edits_ are of: the epoch before it
   double scale_ = 0, screen_scale_ = 1, relative_scale_ = 1;
+
+  SceneWatch watch_;
+  bool watching_ = false;
 
   Memory memory_;
   std::optional<Camera> found_camera_;  // the automatic one, which need not be remembered

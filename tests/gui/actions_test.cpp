@@ -69,6 +69,7 @@ const std::map<std::string_view, std::string>& validArguments() {
       {"open", kScenes + "two_patches.obj"},
       {"pause", "on"},
       {"step", "2"},
+      {"watch", "on"},
       {"mode", "jacobi"},
       {"race", "southwell"},
       {"form-factors", "hemicube"},
@@ -180,8 +181,8 @@ LiveViewer::Options cornellBox() {
 
 /// Performs it and runs until it is carried out and shown.
 void performAndSettle(LiveViewer& live, const Action& action, const std::string& argument) {
-  static const std::set<std::string_view> kSolveAnew{"open",     "restart", "form-factors", "elements",
-                                                     "hemicube", "again",   "do",           "do-all"};
+  static const std::set<std::string_view> kSolveAnew{
+      "open", "reload", "restart", "form-factors", "elements", "hemicube", "again", "do", "do-all"};
   const std::uint64_t epoch = live->state().epoch;
   live->perform(action.key, argument);
   for (int frame = 0; frame < 5; ++frame) live.draw();

@@ -38,6 +38,21 @@ std::span<const Action> solveActions() {
        "Give up loading; the scene before stays",
        {},
        [](Viewer& v, const std::string&) { v.giveUpLoading(); }},
+      {"reload",
+       "",
+       "Read the scene's files again and solve it; the camera stays",
+       {GLFW_KEY_F5, false, "F5"},
+       [](Viewer& v, const std::string&) { v.reload(); }},
+      {"watch",
+       "[on|off]",
+       "Say when the scene's files change on disk",
+       {},
+       [](Viewer& v, const std::string& a) {
+         bool on = v.watchingScene();
+         setSwitch(on, a);
+         v.watchScene(on);
+       },
+       checkSwitch},
       {"pause",
        "[on|off]",
        "Pause the solve, or go on",

@@ -60,7 +60,7 @@ std::span<const Action> windowActions() {
        checkSwitch},
       {"dismiss",
        "",
-       "Close the message or the help, give up loading, or pick nothing",
+       "Close what lies over the scene, give up loading, or pick nothing",
        {GLFW_KEY_ESCAPE, false, "Esc"},
        [](Viewer& v, const std::string&) { v.dismiss(); }},
       {"size",

@@ -98,6 +98,23 @@ void loadingWindow(Viewer& viewer, float middle) {
   ImGui::End();
 }
 
+/// Between the message above and the notice below.
+void changedWindow(Viewer& viewer, float middle) {
+  const float size = ImGui::GetFontSize();
+  ImGui::SetNextWindowPos({middle, size}, ImGuiCond_Always, {0.5f, 0});
+  ImGui::SetNextWindowBgAlpha(0.94f);
+  ImGui::Begin("changed", nullptr, kFixed);
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("The scene changed on disk");
+  ImGui::SameLine();
+  if (ImGui::Button("Reload")) viewer.perform("reload");
+  tooltip("F5: reads its files again and solves it; the camera stays, changes of materials go");
+  ImGui::SameLine();
+  if (ImGui::Button("Keep")) viewer.perform("dismiss");
+  tooltip("Esc: goes on with what was read before. The action watch off asks no more");
+  ImGui::End();
+}
+
 void line(const char* id, const std::string& text, ImVec2 at, ImVec2 pivot) {
   ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
   ImGui::SetNextWindowBgAlpha(0.85f);
@@ -130,6 +147,8 @@ void buildOverlays(Viewer& viewer, int scene_width, float bottom, const std::str
   } else if (viewer.ui().help) {
     helpWindow(middle);
   }
+  if (viewer.sceneChanged() && !viewer.error() && state.phase != SessionPhase::kLoading)
+    changedWindow(viewer, middle);
   if (!notice.empty()) line("notice", notice, {middle, bottom - 0.7f * size}, {0.5f, 1});
 }
 
