@@ -17,7 +17,9 @@ enum class Quantity {
   kReflectance = 4,
   kBounces = 5,
   kResidual = 6,
-  kDifference = 7
+  kDifference = 7,
+  kFormFactors = 8,
+  kLastShot = 9
 };
 
 struct DisplayMode {

@@ -14,6 +14,7 @@
 #include "viewer/panels/camera_panel.h"
 #include "viewer/panels/error_panel.h"
 #include "viewer/panels/false_colour_panel.h"
+#include "viewer/panels/hemicube_panel.h"
 #include "viewer/panels/materials_panel.h"
 #include "viewer/panels/notes_panel.h"
 #include "viewer/panels/picked_panel.h"
@@ -363,6 +364,7 @@ void buildSidePanel(Viewer& viewer, int left) {
   cameraSection(viewer);
   materialsSection(viewer);
   bouncesSection(viewer);
+  teachingSection(viewer);
   figuresSection(viewer);
   planSection(viewer);
   notesSection(viewer);
