@@ -78,16 +78,24 @@ void Viewer::screenshot(std::filesystem::path path, bool with_panels) {
   input();
 }
 
+/// The scene of a screenshot, before the panels are built that tell of it.
+void Viewer::drawForCapture(int width, int height) {
+  if (!sceneStands()) return;
+  try {
+    const StateGuard guard(setup_.display->functions());
+    scene_.setSnapshots(state_->snapshot, rivalSnapshot());
+    int samples = kSamplesAlongPixel;
+    while (samples > 1 && 1.0 * width * height * samples * samples > kMostSamples) --samples;
+    scene_.draw({navigator_.camera(), ui_.settings, scene_width_, height, samples}, -1,
+                SceneDisplay::kAtOnce);
+  } catch (const Error& error) {
+    fail(error);
+  }
+}
+
 void Viewer::capture(const Capture& wanted, int width, int height, int scene_width) {
   try {
     const StateGuard guard(setup_.display->functions());
-    if (sceneStands()) {
-      scene_.setSnapshots(state_->snapshot, rivalSnapshot());
-      int samples = kSamplesAlongPixel;
-      while (samples > 1 && 1.0 * width * height * samples * samples > kMostSamples) --samples;
-      scene_.draw({navigator_.camera(), ui_.settings, scene_width, height, samples}, -1,
-                  SceneDisplay::kAtOnce);
-    }
     const Canvas canvas(*setup_.display, width, height);
     paint(canvas.framebuffer(), width, height, scene_width, wanted.with_panels);
     writePng(wanted.path, canvas.read(wanted.with_panels ? width : scene_width));

@@ -8,6 +8,8 @@
 #include "base/srgb.h"
 #include "viewer/comparison.h"
 #include "viewer/panels/false_colour_panel.h"
+#include "viewer/panels/hemicube_panel.h"
+#include "viewer/panels/lecture_panel.h"
 #include "viewer/panels/panels.h"
 #include "viewer/panels/reference_picture_panel.h"
 #include "viewer/panels/status_line.h"
@@ -144,16 +146,21 @@ bool Viewer::draw(GLuint framebuffer, int width, int height) {
   const double seconds = std::min(now - last_frame_, 0.1);
   last_frame_ = now;
   if (gui_frames_ > 0) --gui_frames_;
-  scene_width_ = width - panelWidth(ui_, scale_, width);
+  const BesideScene beside = besideScene(*this, width);
+  scene_width_ = width - beside.panel - beside.lecture;
   scene_height_ = height;
   measureReference(now);
+  if (!captures_.empty() && gui_frames_ == 0) drawForCapture(width, height);
   ImGui::NewFrame();
   navigate(seconds);
-  buildSidePanel(*this, scene_width_);
+  buildSidePanel(*this, width - beside.panel);
   const float bottom = static_cast<float>(height) - buildStatusLine(*this, scene_width_);
   buildLegend(*state_, ui_.settings.view, scene_width_, bottom);
   buildFalseColourLegend(*this, scene_width_, bottom);
   buildReferencePicture(*this, scene_width_, bottom);
+  buildLectureMarks(*this, scene_width_);
+  buildLecture(*this, scene_width_, beside.lecture);
+  buildHemicube(*this, scene_width_, bottom);
   buildOverlays(*this, scene_width_, bottom, notice_, scene_.framing() || frame_wanted_);
   ImGui::Render();
 

@@ -2,6 +2,7 @@
 #include <imgui.h>
 
 #include "base/atomic_file.h"
+#include "viewer/teaching.h"
 #include "viewer/viewer.h"
 
 namespace unshot {
@@ -75,5 +76,17 @@ void Viewer::copyValues() {
 }
 
 void Viewer::focusPicked() { navigator_.lookAt(picking_.required().pick.position); }
+
+/// Tells what a lecture shows of what is picked, and takes what there is to show.
+void Viewer::followTeaching() {
+  const std::optional<PickedPoint>& point = picking_.picked();
+  ViewOptions& view = ui_.settings.view;
+  if (teaching_->follow(session_, *state_, point ? point->pick.patch : kNone, view.display)) input();
+  const Insight* insight = teaching_->insight();
+  const PatchInsight* patch = teaching_->patch();
+  const bool of_picked = patch && point && patch->patch == point->pick.patch;
+  view.form_factors = of_picked ? patch->sent_over : nullptr;
+  view.last_shot = insight && insight->shot ? insight->shot->added : nullptr;
+}
 
 }  // namespace unshot

@@ -20,8 +20,8 @@ constexpr std::size_t kFewestBytes = 1 << 20;
 bool sameSamples(const SceneDisplay::Wanted& a, const SceneDisplay::Wanted& b) {
   const ViewOptions &va = a.settings.view, &vb = b.settings.view;
   return a.camera == b.camera && va.display == vb.display && va.ambient == vb.ambient &&
-         va.light == vb.light && va.reference == vb.reference && a.width == b.width && a.height == b.height &&
-         a.samples == b.samples;
+         va.light == vb.light && va.reference == vb.reference && va.form_factors == vb.form_factors &&
+         va.last_shot == vb.last_shot && a.width == b.width && a.height == b.height && a.samples == b.samples;
 }
 
 ViewOptions viewOf(const SceneDisplay::Wanted& wanted) {

@@ -14,6 +14,7 @@
 #include "viewer/comparison.h"
 #include "viewer/panels/panels.h"
 #include "viewer/panels/theme.h"
+#include "viewer/teaching.h"
 
 namespace unshot {
 namespace {
@@ -40,6 +41,7 @@ Viewer::Viewer(ViewerSetup setup)
       session_(setup_.session),
       state_(session_.latest()),
       memory_(setup_.memory),
+      teaching_(std::make_unique<Teaching>(*setup_.display, setup_.session.wake)),
       script_(setup_.script) {
   ui_.options = setup_.options;
   ui_.settings = setup_.settings;
@@ -80,6 +82,7 @@ void Viewer::update(double now) {
     closing_ = true;
   }
   takeState(now);
+  followTeaching();
   runScript(now);
   if (watch_.look(now)) input();
   if (!notice_.empty() && now >= notice_until_) {
@@ -158,6 +161,7 @@ void Viewer::perform(std::string_view action, const std::string& argument) {
     const std::string wrong = checkArgument(row, argument);
     if (!wrong.empty()) throw Error(ErrorKind::kUsage, wrong, {}, "H lists what can be done");
     row.run(*this, argument);
+    followTeaching();
   } catch (const Error& error) {
     fail(error);
   }
@@ -340,7 +344,7 @@ void Viewer::resizeWindow(int width, int height) {
 
 bool Viewer::settled() const {
   return session_.sent() == state_->commands && state_->phase != SessionPhase::kLoading && !frame_wanted_ &&
-         !scene_.framing() && captures_.empty() && !state_->spareWork();
+         !scene_.framing() && captures_.empty() && !state_->spareWork() && teaching_->settled();
 }
 
 bool Viewer::waitIsOver(const ScriptLine& line, double now) {

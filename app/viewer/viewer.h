@@ -35,6 +35,8 @@
 
 namespace unshot {
 
+class Teaching;
+
 struct ViewerSetup {
   gl::Context* display = nullptr;  ///< current on the main thread; outlives the viewer
   SessionSetup session;
@@ -129,6 +131,7 @@ class Viewer {
   /// Performs an action of the table; what fails is shown as a message.
   void perform(std::string_view action, const std::string& argument = {});
   ViewerState& ui() { return ui_; }
+  const ViewerState& ui() const { return ui_; }
   const DisplaySettings& settings() const { return ui_.settings; }
   const SessionState& state() const { return *state_; }
   const gl::ContextInfo& renderer() const { return setup_.display->info(); }
@@ -168,6 +171,8 @@ class Viewer {
   void setError(double error);
   /// Changes materials; the solve goes on with them.
   void edit(const std::function<void(MaterialEdits&)>& change);
+  Teaching& teaching() { return *teaching_; }
+  const Teaching& teaching() const { return *teaching_; }
   const MaterialEdits& edits() const { return edits_; }
   /// When the mouse button that is held went down; none where none is.
   std::optional<double> gesture() const;
@@ -267,6 +272,7 @@ class Viewer {
   void runScriptLines(double now);
   bool waitIsOver(const ScriptLine& line, double now);
   bool settled() const;
+  void followTeaching();
   void forgetOldLight();
   void fail(const Error& error);
   void navigate(double seconds);
@@ -296,6 +302,7 @@ class Viewer {
   void measureReference(double now);
   bool drawScene(double now, double deadline);
   void paint(GLuint framebuffer, int width, int height, int scene_width, bool gui);
+  void drawForCapture(int width, int height);
   void capture(const Capture& wanted, int width, int height, int scene_width);
   void noteSaved(const SessionState& before);
   std::filesystem::path newFileName(const std::string& ending) const;
@@ -346,6 +353,7 @@ class Viewer {
   std::optional<ZoomTarget> zoom_target_;
   std::unique_ptr<ReferencePicture> reference_picture_;
   double last_measured_ = 0;  // reference_picture_
+  std::unique_ptr<Teaching> teaching_;
 
   // The scene shown.
   std::filesystem::path framed_scene_;  // the camera is for this one

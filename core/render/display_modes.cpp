@@ -5,7 +5,7 @@
 namespace unshot {
 
 std::span<const DisplayMode> displayModes() {
-  static constexpr std::array<DisplayMode, 15> table = {{
+  static constexpr std::array<DisplayMode, 17> table = {{
       {.info = {"radiosity", "Radiosity", "light as it leaves the surfaces, B = E + rho H, smooth"}},
       {.info = {"flat", "Radiosity per element", "each element in its own radiosity, as the solver sees it"},
        .per_element = true},
@@ -38,6 +38,14 @@ std::span<const DisplayMode> displayModes() {
        .quantity = Quantity::kDifference,
        .tone_mapped = false,
        .exposed = false},
+      {.info =
+           {"form-factors", "Form factors of a patch",
+            "how much each place gets of what the picked patch sends, F_ij over the area of j, as a scale "
+            "of colours; black until a patch is picked"},
+       .quantity = Quantity::kFormFactors,
+       .false_colour = true},
+      {.info = {"last-shot", "Last shot", "what the last single step added to B; black until one was taken"},
+       .quantity = Quantity::kLastShot},
       {.info = {"mesh", "Mesh", "radiosity with the edges of the elements"}, .edges = true},
       {.info = {"patches", "Patches", "what shoots: each patch in a colour that its neighbours do not have"},
        .quantity = Quantity::kPatches,

@@ -21,7 +21,9 @@ enum class Quantity {
   kDifference = 7,
   kPatches = 8,
   kSides = 9,
-  kNormals = 10
+  kNormals = 10,
+  kFormFactors = 11,
+  kLastShot = 12
 };
 
 struct DisplayMode {

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "render/element_edges.h"
 #include "render/patch_colours.h"
+#include "session/insight.h"
 
 namespace unshot {
 namespace {
@@ -99,6 +100,7 @@ SceneBuffers::SceneBuffers(gl::Context& context)
       residual_(context),
       bounce_irradiance_(context),
       reference_(context),
+      given_(context),
       triangles_(context),
       edges_(context),
       unlit_(context),
@@ -125,6 +127,7 @@ void SceneBuffers::begin(const std::shared_ptr<const Snapshot>& snapshot) {
     beginMesh(snapshot->mesh);
     bounce_field_.reset();
     reference_light_.reset();
+    given_uploaded_ = false;
     all = true;
   }
   const auto own = [&](const std::vector<glm::vec3>& field) {
@@ -185,19 +188,31 @@ void SceneBuffers::useReference(const std::shared_ptr<const ReferenceLight>& ref
   reference_light_ = wanted;
 }
 
+void SceneBuffers::useGiven(const std::shared_ptr<const VertexField>& given) {
+  const bool fits = given && given->cut == mesh_->cut;
+  const std::shared_ptr<const VertexField> wanted = fits ? given : nullptr;
+  if (given_uploaded_ && wanted == given_field_) return;
+  send<glm::vec3>(given_, wanted ? SharedField(wanted, &wanted->values) : nullptr, mesh_->vertices.size());
+  given_field_ = wanted;
+  given_uploaded_ = true;
+}
+
 const gl::Buffer* SceneBuffers::fieldOf(Quantity quantity) const {
   if (quantity == Quantity::kUnshot) return &unshot_;
   if (quantity == Quantity::kBounces) return &bounces_;
   if (quantity == Quantity::kDifference) return &reference_;
+  if (quantity == Quantity::kFormFactors || quantity == Quantity::kLastShot) return &given_;
   return quantity == Quantity::kResidual ? &residual_ : nullptr;
 }
 
 // The light that is shown is a matter of which buffer is read.
 const gl::Texture& SceneBuffers::bind(const LightChoice& choice, Quantity quantity,
-                                      const std::shared_ptr<const ReferenceLight>& reference) {
+                                      const std::shared_ptr<const ReferenceLight>& reference,
+                                      const std::shared_ptr<const VertexField>& given) {
   const gl::Functions& fn = context_.functions();
   const LightBuffers light = lightOf(choice);
   if (quantity == Quantity::kDifference) useReference(reference);
+  if (fieldOf(quantity) == &given_) useGiven(given);
   fn.BindVertexArray(vertex_array_.id());
   attribute(fn, 3, light.vertices, sizeof(glm::vec3), 0);
   if (const gl::Buffer* field = fieldOf(quantity)) attribute(fn, 5, *field, sizeof(glm::vec3), 0);

@@ -15,6 +15,8 @@
 
 namespace unshot {
 
+struct VertexField;
+
 /// All calls on the thread where the context is current.
 class SceneBuffers {
  public:
@@ -34,9 +36,11 @@ class SceneBuffers {
 
   /// Binds the vertex array with the light and the quantity that are meant, brought up to date. Returns the
   /// same light of the elements, or their colours where the quantity is that. `reference`: what kDifference
-  /// compares with, where it is of this mesh; else direct light alone.
+  /// compares with, where it is of this mesh; else direct light alone. `given`: the values of kFormFactors
+  /// and kLastShot, 0 where it is of another mesh.
   const gl::Texture& bind(const LightChoice& light, Quantity quantity,
-                          const std::shared_ptr<const ReferenceLight>& reference);
+                          const std::shared_ptr<const ReferenceLight>& reference,
+                          const std::shared_ptr<const VertexField>& given);
   /// Binds the vertex array of surfaces without a lit side: no light, nothing of any quantity.
   void bindUnlit() const;
   /// Whether this quantity has a field of its own beside the light.
@@ -70,6 +74,7 @@ class SceneBuffers {
     const gl::Texture& elements;
   };
   LightBuffers lightOf(const LightChoice& choice);
+  void useGiven(const std::shared_ptr<const VertexField>& given);
   void useReference(const std::shared_ptr<const ReferenceLight>& reference);
   /// The buffer with what this quantity shows besides the light; null where that is all.
   const gl::Buffer* fieldOf(Quantity quantity) const;
@@ -85,8 +90,10 @@ class SceneBuffers {
   std::shared_ptr<const MeshField> bounce_field_;           // as uploaded
   std::shared_ptr<const ReferenceLight> direct_reference_;  // where there is no other
   std::shared_ptr<const ReferenceLight> reference_light_;   // as uploaded
+  std::shared_ptr<const VertexField> given_field_;          // as uploaded
+  bool given_uploaded_ = false;                             // or nothing in its place
   gl::Buffer vertices_, irradiance_, direct_, ambient_, unshot_, bounces_, residual_, bounce_irradiance_,
-      reference_;
+      reference_, given_;
   TriangleBlocks triangle_blocks_;
   gl::Buffer triangles_, edges_, unlit_;
   gl::Buffer sides_, triangle_elements_, element_irradiance_, element_direct_, element_bounce_,

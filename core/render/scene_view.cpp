@@ -19,6 +19,15 @@ void bindTexture(const gl::Functions& fn, const gl::Program& program, const char
 
 }  // namespace
 
+FalseColour falseColourOf(const ViewOptions& options, const DisplayMode& mode) {
+  FalseColour out = options.false_colour;
+  if (mode.quantity == Quantity::kFormFactors) {
+    out.lumens_per_watt = 0;
+    out.logarithmic = true;
+  }
+  return out;
+}
+
 SceneView::SceneView(gl::Context& context)
     : context_(context),
       buffers_(context),
@@ -91,7 +100,8 @@ DrawnPieces SceneView::drawPieces(const Camera& camera, double aspect, const Fra
   if (!buffers_.mesh() || pieces.first >= pieces.end) return drawn;
 
   const glm::mat4 matrix = viewProjection(camera, aspect, buffers_.bounds(), window, depth.range);
-  const gl::Texture& element_light = buffers_.bind(options.light, mode.quantity, options.reference);
+  const gl::Texture& element_light =
+      buffers_.bind(options.light, mode.quantity, options.reference, options.given(mode.quantity));
   const auto draw = [&](GLenum kind, const gl::Buffer& indices, std::size_t corners, std::size_t first,
                         std::size_t end) {
     fn.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.id());
@@ -124,7 +134,7 @@ DrawnPieces SceneView::drawPieces(const Camera& camera, double aspect, const Fra
   }
   if (drawn.end >= faces && drawn.end < pieces.end) {
     const std::size_t first = drawn.end - faces, count = left(pieces.end);
-    buffers_.bind(options.light, mode.quantity, options.reference);
+    buffers_.bind(options.light, mode.quantity, options.reference, options.given(mode.quantity));
     useDisplay(by_pixel_program_, matrix, camera, options, element_light);
     fn.Uniform1i(by_pixel_program_.uniform("edges"), 1);
     fn.Enable(GL_CLIP_DISTANCE0);
@@ -201,7 +211,8 @@ void SceneView::resolve(const LinearTarget& samples, double automatic_exposure, 
   fn.Uniform2i(program.uniform("origin"), viewport.x, viewport.y - first_row);
   fn.Uniform1f(program.uniform("exposure"), finiteValue(scale));
   fn.Uniform1i(program.uniform("tone_curve"), mode.tone_mapped ? toneCurveNumber(options.tone) : -1);
-  useFalseColour(program, mode.false_colour ? &options.false_colour : nullptr, scale);
+  const FalseColour scale_of_colours = falseColourOf(options, mode);
+  useFalseColour(program, mode.false_colour ? &scale_of_colours : nullptr, scale);
   fn.Uniform3f(program.uniform("background"), kBackground, kBackground, kBackground);
   const bool shows_light = mode.quantity == Quantity::kRadiosity || mode.quantity == Quantity::kEmission;
   const glm::vec3 sky = shows_light ? glm::vec3(buffers_.sky()) : glm::vec3(0.0f);

@@ -24,6 +24,8 @@
 
 namespace unshot {
 
+struct VertexField;
+
 /// How a picture is shown; nothing here changes what is solved or uploaded.
 struct ViewOptions {
   std::string display = "radiosity";  ///< key of a display mode
@@ -39,10 +41,20 @@ struct ViewOptions {
   /// What the display mode `difference` compares with, where it is of the mesh that is drawn; else direct
   /// light alone.
   std::shared_ptr<const ReferenceLight> reference;
+  /// What the display modes `form-factors` [1/m^2] and `last-shot` [W/m^2] show, where it is of the mesh that
+  /// is drawn (session/insight.h); else nothing.
+  std::shared_ptr<const VertexField> form_factors, last_shot;
+
+  /// That of this quantity; null where it has none.
+  const std::shared_ptr<const VertexField>& given(Quantity quantity) const {
+    return quantity == Quantity::kFormFactors ? form_factors : last_shot;
+  }
 };
 
 /// Where a picture shows nothing: a neutral dark grey, linear values of the display (sRGB 26).
 inline constexpr float kBackground = 0.0103f;
+/// The scale that a mode has its colours by: form factors are in no unit of light, and go over decades.
+FalseColour falseColourOf(const ViewOptions& options, const DisplayMode& mode);
 
 /// A rectangle of the bound framebuffer [px], from its lower left.
 struct Viewport {

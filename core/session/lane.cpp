@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/clock.h"
+#include "session/solve_inside.h"
 
 namespace unshot {
 namespace {
@@ -100,6 +101,10 @@ void Lane::setError(double error) {
 
 void Lane::again() {
   usable().again();
+  if (looking_on_) {
+    const InsightWanted wanted = looking_on_->wanted();
+    looking_on_.emplace(*solve_).want(wanted);
+  }
   history_.reset();
   failure_noted_ = false;
   bound_seconds_ = estimate_seconds_ = 0;
@@ -109,7 +114,10 @@ void Lane::again() {
 
 void Lane::edit(const std::vector<Material>& materials, const std::function<gl::Context&()>& gl,
                 const CancelToken& cancel) {
-  solve_ = std::make_unique<Solve>(usable(), materials, gl, cancel);
+  auto edited = std::make_unique<Solve>(usable(), materials, gl, cancel);
+  const InsightWanted wanted = looking_on_ ? looking_on_->wanted() : InsightWanted();
+  if (std::exchange(looking_on_, std::nullopt)) looking_on_.emplace(*edited).want(wanted);
+  solve_ = std::move(edited);
   failure_noted_ = no_more_places_ = no_more_bounces_ = false;
   stale_ = estimates_stale_ = true;
   pace_ = {};  // the snapshot shows the materials at once
@@ -121,10 +129,24 @@ void Lane::completeBounces() {
   complete_bounces_ = true;
 }
 
+void Lane::lookInto(const InsightWanted& wanted) {
+  if (!looking_on_) looking_on_.emplace(*solve_);
+  looking_on_->want(wanted);
+  const std::optional<std::uint32_t> patch = looking_on_->wanted().patch;
+  if (patch && !broken()) {
+    computeColumn(*solve_, *patch);
+    stale_ = true;
+  }
+  refreshInsight(true);
+}
+
 void Lane::step(std::uint64_t most_shots) {
   const double before = solve_->errorSeconds();
+  const bool alone = looking_on_ && most_shots == 1;
   try {
+    if (alone) looking_on_->beforeStep();
     solve_->step(most_shots);
+    if (alone) looking_on_->afterStep();
     bound_seconds_ += solve_->errorSeconds() - before;
     stale_ = estimates_stale_ = true;
     estimateInPassing();
@@ -143,7 +165,7 @@ void Lane::noteFailure() {
 
 bool Lane::hasSpareWork() const {
   if (broken() || !hasLight()) return false;
-  if (hasBounceWork()) return true;
+  if (hasBounceWork() || (looking_on_ && looking_on_->hasWork())) return true;
   return !no_more_places_ && (estimates_stale_ || solve_->places() < kPlacesAtRest);
 }
 
@@ -160,6 +182,8 @@ bool Lane::spareWork(double interval) {
   bool show = true;
   if (hasBounceWork()) {
     show = workOutBounces(interval);
+  } else if (looking_on_ && looking_on_->hasWork()) {
+    show = gather();
   } else {
     // When those in passing were chosen is a matter of time: an estimate at rest is the same each time.
     if (std::exchange(places_in_passing_, false)) solve_->forgetPlaces();
@@ -176,6 +200,26 @@ bool Lane::sumRows() {
   } catch (...) {
     noteException();
     return false;
+  }
+}
+
+bool Lane::gather() {
+  try {
+    return looking_on_->work();
+  } catch (...) {
+    noteException();
+    looking_on_.reset();
+    return true;
+  }
+}
+
+void Lane::refreshInsight(bool at_once) {
+  if (!looking_on_) return;
+  try {
+    looking_on_->refresh(at_once);
+  } catch (...) {
+    noteException();
+    looking_on_.reset();
   }
 }
 
@@ -234,6 +278,7 @@ void Lane::refresh(bool resting, double interval) {
     }
     pace_.made(began, wallSeconds());
   }
+  refreshInsight(resting);
   if (facts_->diagnostics.size() != solve_->diagnostics().size())
     learnFacts(facts_->options, facts_->load_seconds);
   if (!history_ || history_->size() != solve_->history().size())
@@ -254,6 +299,7 @@ LaneState Lane::state(bool resting, bool paused) const {
   state.spare_work = resting && hasSpareWork();
   state.progress = solve_->progress();
   state.kept_bytes = solve_->keptBytes();
+  if (looking_on_) state.insight = looking_on_->shown();
   state.drawn = solve_->drawn();
   state.stopped_by = broken_.value_or(solve_->stoppedBy());
   return state;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "session/looking_on.h"
 #include "session/publish_pace.h"
 #include "session/session.h"
 
@@ -38,6 +39,8 @@ class Lane {
   void edit(const std::vector<Material>& materials, const std::function<gl::Context&()>& gl,
             const CancelToken& cancel);
   void completeBounces();
+  /// What state() tells beside the snapshot from now on.
+  void lookInto(const InsightWanted& wanted);
 
   /// One step (Solve::step), after which estimates may be made too.
   void step(std::uint64_t most_shots = Solve::kMostAtOnce);
@@ -69,11 +72,14 @@ class Lane {
   bool hasBounceWork() const;
   bool workOutBounces(double interval);
   bool sumRows();
+  bool gather();
+  void refreshInsight(bool at_once);
   void estimateInPassing();
   void estimateFrom(std::size_t more_places);
   bool wantsSnapshot(bool resting, double interval) const;
 
   std::unique_ptr<Solve> solve_;
+  std::optional<LookingOn> looking_on_;  // once that was asked for
   std::function<void(Error)> note_;
   std::optional<std::string> broken_;
   bool failure_noted_ = false;  // numerical trouble is told once

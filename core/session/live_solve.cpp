@@ -157,6 +157,11 @@ void LiveSolve::perform(const command::CompleteBounces&) {
   forEachUsable([](Lane& lane) { lane.completeBounces(); });
 }
 
+void LiveSolve::perform(const command::LookInto& c) {
+  insight_ = c.wanted;
+  if (lane_) lane_->lookInto(insight_);
+}
+
 void LiveSolve::perform(const command::ShootAgain&) {
   forEachUsable([](Lane& lane) { lane.again(); });
   ++epoch_;
@@ -280,6 +285,7 @@ void LiveSolve::begin(Start start) {
   }
   if (another_scene) saveKept();
   lane_ = std::move(fresh);
+  lane_->lookInto(insight_);
   rival_ = std::move(rival);
   paused_ = false;
   steps_left_ = 0;

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "session/insight.h"
 #include "session/lane.h"
 #include "session/saver.h"
 #include "session/session.h"
@@ -43,6 +44,9 @@ struct SetError {
   double error;
 };
 struct CompleteBounces {};
+struct LookInto {
+  InsightWanted wanted;
+};
 struct ShootAgain {};
 struct Race {
   std::string mode;
@@ -53,9 +57,10 @@ struct Save {
 };
 }  // namespace command
 
-using Command = std::variant<command::Open, command::Restart, command::Edit, command::Pause, command::Resume,
-                             command::Step, command::SetMode, command::SetError, command::CompleteBounces,
-                             command::ShootAgain, command::Race, command::EndRace, command::Save>;
+using Command =
+    std::variant<command::Open, command::Restart, command::Edit, command::Pause, command::Resume,
+                 command::Step, command::SetMode, command::SetError, command::CompleteBounces,
+                 command::LookInto, command::ShootAgain, command::Race, command::EndRace, command::Save>;
 
 /// Whether loading for `command` is in vain, since `later` loads another scene or the same one again.
 bool isSuperseded(const Command& command, const Command& later);
@@ -101,6 +106,7 @@ class LiveSolve {
   void perform(const command::SetMode& c);
   void perform(const command::SetError& c);
   void perform(const command::CompleteBounces&);
+  void perform(const command::LookInto& c);
   void perform(const command::ShootAgain&);
   void perform(const command::Race& c);
   void perform(const command::EndRace&);
@@ -149,8 +155,9 @@ class LiveSolve {
   std::unique_ptr<Lane> lane_, rival_;  // rival_: in a race
   bool paused_ = false;
   std::uint64_t steps_left_ = 0;  // before a pause; 0: no pause is due
-  std::string task_;              // not empty while loading
-  bool abandoned_ = false;        // what was to be loaded last was given up
+  InsightWanted insight_;
+  std::string task_;        // not empty while loading
+  bool abandoned_ = false;  // what was to be loaded last was given up
   Saver saver_;
 
   std::uint64_t version_ = 0, epoch_ = 0, commands_ = 0, problems_ = 0;

@@ -166,6 +166,8 @@ void Session::setError(double error) { impl_->send(command::SetError{error}); }
 
 void Session::completeBounces() { impl_->send(command::CompleteBounces{}); }
 
+void Session::lookInto(const InsightWanted& wanted) { impl_->send(command::LookInto{wanted}); }
+
 void Session::race(std::string mode) { impl_->send(command::Race{std::move(mode)}); }
 
 void Session::endRace() { impl_->send(command::EndRace{}); }

@@ -15,6 +15,9 @@
 
 namespace unshot {
 
+struct Insight;
+struct InsightWanted;
+
 enum class SessionPhase {
   kEmpty,      ///< no scene was asked for yet, or the first one failed
   kLoading,    ///< a scene is read or meshed; what was shown before stays
@@ -55,8 +58,9 @@ struct LaneState {
   bool spare_work = false;     ///< the solve rests, and its estimates or light by bounces still get better
   double progress = 0;         ///< Solve::progress
   std::size_t kept_bytes = 0;  ///< memory held by kept columns
-  std::uint64_t drawn = 0;     ///< hemicubes drawn
-  std::string stopped_by;      ///< Solve::stoppedBy, or what a step threw
+  std::shared_ptr<const Insight> insight;         ///< what was asked for by lookInto(); null before that
+  std::uint64_t drawn = 0;                        ///< hemicubes drawn
+  std::string stopped_by;                         ///< Solve::stoppedBy, or what a step threw
   SessionPhase own_phase = SessionPhase::kEmpty;  ///< of this solve by itself
 };
 
@@ -157,6 +161,9 @@ class Session {
   /// While the present solve rests: computes the form factors that light by bounces still waits for
   /// (Snapshot::bounce_wait). Where none are missing it needs no asking.
   void completeBounces();
+  /// What LaneState::insight is to hold from now on (session/insight.h), of the present solve and of those
+  /// that come. The column of a patch that is not at hand is computed for it.
+  void lookInto(const InsightWanted& wanted);
 
   /// The present solve from nothing against another one of the same scene in the mode `key`: in turns, each
   /// always as long as the other [s of its own clock], with half of the memory for columns each. It goes on

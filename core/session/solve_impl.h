@@ -4,7 +4,8 @@
 // - solve_end.cpp says when and why it ends;
 // - row_closing.cpp closes its rows;
 // - saved_solve.cpp writes it into a file and takes it up again;
-// - edited_solve.cpp goes on with other materials.
+// - edited_solve.cpp goes on with other materials;
+// - solve_inside.cpp lets others look on.
 #pragma once
 
 #include <memory>
@@ -25,6 +26,10 @@
 #include "solver/modes.h"
 
 namespace unshot {
+
+inline const Transport& insideTransport(const Solve& solve);
+inline const RadiosityState& insideState(const Solve& solve);
+inline void computeInside(const Solve& solve, std::uint32_t q);
 
 struct Solve::Impl {
   SolveOptions options;
@@ -114,6 +119,14 @@ struct Solve::Impl {
   bool closureIsUrgent() const;
   bool closeRows();
   bool iterate(std::uint64_t most_shots);
+
+  void computeKeptColumn(std::uint32_t q);
+
+  // For solve_inside.cpp: no function beside Solve's own may name its Impl.
+  static Impl& of(const Solve& solve) { return *solve.impl_; }
+  friend const Transport& insideTransport(const Solve& solve) { return *of(solve).transport; }
+  friend const RadiosityState& insideState(const Solve& solve) { return *of(solve).state; }
+  friend void computeInside(const Solve& solve, std::uint32_t q) { of(solve).computeKeptColumn(q); }
 };
 
 }  // namespace unshot

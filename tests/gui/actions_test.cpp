@@ -120,6 +120,15 @@ const std::map<std::string_view, std::string>& validArguments() {
       {"pick", "0.5,0.6"},
       {"unpin-probe", "1"},
       {"save-probes", "with.csv"},
+      {"hemicube-view", "on"},
+      {"hemicube-picture", "shares"},
+      {"lecture", "on"},
+      {"lecture-page", "shots"},
+      {"matrix-power", "7"},
+      {"matrix-sums", "on"},
+      {"matrix-channel", "blue"},
+      {"allow-divergence", "on"},
+      {"matrix-reflectance", "1.1"},
   };
   return arguments;
 }

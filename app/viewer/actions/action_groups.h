@@ -10,6 +10,7 @@ namespace unshot {
 std::span<const Action> solveActions();
 std::span<const Action> materialActions();
 std::span<const Action> displayActions();
+std::span<const Action> lectureActions();
 std::span<const Action> cameraActions();
 std::span<const Action> pickingActions();
 std::span<const Action> windowActions();

@@ -14,11 +14,12 @@
 namespace unshot {
 
 std::span<const ActionGroup> actionGroups() {
-  static const std::array<ActionGroup, 6> groups = {{
+  static const std::array<ActionGroup, 7> groups = {{
       {"Solve", solveActions()},
       {"Materials", materialActions()},
       {"Display", displayActions()},
       {"Picking", pickingActions()},
+      {"Lecture", lectureActions()},
       {"Camera", cameraActions()},
       {"Window", windowActions()},
   }};

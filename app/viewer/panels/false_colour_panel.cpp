@@ -31,6 +31,12 @@ const char* unitText(const FalseColour& how) { return how.lumens_per_watt > 0 ? 
 
 bool isShown(const ViewOptions& view) { return displayMode(view.display).false_colour; }
 
+std::string titleOf(const DisplayMode& mode, const FalseColour& how) {
+  if (mode.quantity == Quantity::kFormFactors) return "Form factors, F_ij / A_j [1/m\u00b2]";
+  const bool arrives = mode.quantity == Quantity::kIrradiance;
+  return std::string(arrives ? "Irradiance H" : "Radiosity B") + " [" + unitText(how) + "]";
+}
+
 // Numbers under the bar, as many as have room.
 void ticks(const FalseColour& how, double top, const ImVec2& at, float width, float height) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -50,11 +56,8 @@ void ticks(const FalseColour& how, double top, const ImVec2& at, float width, fl
   }
 }
 
-}  // namespace
-
-void falseColourChoices(Viewer& viewer) {
+void chooseUnit(Viewer& viewer) {
   const ViewOptions& view = viewer.ui().settings.view;
-  if (!isShown(view)) return;
   struct Unit {
     const char* text;
     const char* argument;
@@ -73,9 +76,19 @@ void falseColourChoices(Viewer& viewer) {
     }
     ImGui::EndCombo();
   }
+}
+
+}  // namespace
+
+void falseColourChoices(Viewer& viewer) {
+  const ViewOptions& view = viewer.ui().settings.view;
+  if (!isShown(view)) return;
+  const bool light = displayMode(view.display).quantity != Quantity::kFormFactors;
+  if (light) chooseUnit(viewer);
   bool on = view.false_colour.isolines;
   if (ImGui::Checkbox("Isolines", &on)) viewer.perform("isolines", on ? "on" : "off");
   tooltip("Lines where the legend's values lie");
+  if (!light) return;
   ImGui::SameLine(9.0f * ImGui::GetFontSize());
   on = view.false_colour.logarithmic;
   if (ImGui::Checkbox("Logarithmic", &on)) viewer.perform("logarithmic", on ? "on" : "off");
@@ -87,7 +100,7 @@ void buildFalseColourLegend(const Viewer& viewer, int scene_width, float bottom)
   if (!viewer.shownSnapshot() || !isShown(view)) return;
   const double top = 1 / (viewer.exposure() * std::exp2(view.exposure_ev));
   const float em = ImGui::GetFontSize(),
-              width = std::min(kBarWidth * em, static_cast<float>(scene_width) - 4 * em);
+              width = std::min(kBarWidth * em, static_cast<float>(scene_width) - 6 * em);
   if (!(width > 4 * em)) return;
   ImGui::SetNextWindowPos({static_cast<float>(scene_width) - 0.7f * em, bottom - 0.7f * em}, ImGuiCond_Always,
                           {1, 1});
@@ -96,8 +109,8 @@ void buildFalseColourLegend(const Viewer& viewer, int scene_width, float bottom)
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing |
                    ImGuiWindowFlags_NoInputs);
-  const bool arrives = displayMode(view.display).quantity == Quantity::kIrradiance;
-  ImGui::Text("%s [%s]", arrives ? "Irradiance H" : "Radiosity B", unitText(view.false_colour));
+  const FalseColour how = falseColourOf(view, displayMode(view.display));
+  ImGui::TextUnformatted(titleOf(displayMode(view.display), how).c_str());
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const ImVec2 at(corner.x + em, corner.y);  // room for numbers at both ends
   const float height = kBarHeight * em;
@@ -108,7 +121,7 @@ void buildFalseColourLegend(const Viewer& viewer, int scene_width, float bottom)
                                  colourAt((k + 1.0) / kParts), colourAt((k + 1.0) / kParts),
                                  colourAt(double{1} * k / kParts));
   }
-  ticks(view.false_colour, top, at, width, height);
+  ticks(how, top, at, width, height);
   ImGui::Dummy({width + 2 * em, 1.4f * height + em});
   ImGui::End();
 }

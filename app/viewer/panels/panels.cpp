@@ -13,6 +13,7 @@
 #include "viewer/panels/camera_panel.h"
 #include "viewer/panels/display_panel.h"
 #include "viewer/panels/error_panel.h"
+#include "viewer/panels/hemicube_panel.h"
 #include "viewer/panels/materials_panel.h"
 #include "viewer/panels/notes_panel.h"
 #include "viewer/panels/picked_panel.h"
@@ -281,6 +282,7 @@ void buildSidePanel(Viewer& viewer, int left) {
   cameraSection(viewer);
   materialsSection(viewer);
   bouncesSection(viewer);
+  teachingSection(viewer);
   figuresSection(viewer);
   planSection(viewer);
   notesSection(viewer);

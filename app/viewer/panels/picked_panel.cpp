@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "base/text.h"
+#include "viewer/panels/marks.h"
 #include "viewer/panels/race_panel.h"
 #include "viewer/panels/widgets.h"
 
@@ -162,19 +163,6 @@ bool probeHead(Viewer& viewer, std::size_t k) {
 
 const ImU32 kBright = IM_COL32(255, 248, 235, 255), kShade = IM_COL32(0, 0, 0, 190);
 
-/// Over one of the pictures.
-struct MarkedPicture {
-  Camera camera;
-  float left = 0, width = 0, height = 0;
-
-  std::optional<ImVec2> at(const glm::dvec3& point) const {
-    const auto place = placeInPicture(camera, static_cast<double>(width / height), point);
-    // What is far outside would be no number of pixels.
-    if (!place || std::abs(place->x) > 100 || std::abs(place->y) > 100) return std::nullopt;
-    return ImVec2(left + width * static_cast<float>(place->x), height * static_cast<float>(place->y));
-  }
-};
-
 void cross(ImDrawList& list, const ImVec2& at, float size) {
   for (const bool shade : {true, false}) {
     const ImU32 colour = shade ? kShade : kBright;
@@ -188,12 +176,7 @@ void cross(ImDrawList& list, const ImVec2& at, float size) {
 }
 
 void markPicked(ImDrawList& list, const MarkedPicture& picture, const PickedPoint& point, float size) {
-  for (const auto& [a, b] : point.outline) {
-    const auto from = picture.at(glm::dvec3(a)), to = picture.at(glm::dvec3(b));
-    if (!from || !to) continue;
-    list.AddLine(*from, *to, kShade, 0.2f * size);
-    list.AddLine(*from, *to, kBright, 0.1f * size);
-  }
+  markOutline(list, picture, point.outline, kBright);
   if (const auto at = picture.at(point.pick.position)) cross(list, *at, size);
 }
 
@@ -256,25 +239,44 @@ void probesSection(Viewer& viewer) {
   ImGui::Spacing();
 }
 
-void buildMarks(const Viewer& viewer, int scene_width) {
-  const Picking& picking = viewer.picking();
-  if (!picking.picked() && picking.pinned().empty()) return;
+void forEachMarkedPicture(const Viewer& viewer, int scene_width,
+                          const std::function<void(ImDrawList&, const MarkedPicture&)>& draw) {
   const SceneSplit split = splitScene(scene_width, viewer.state().rival.has_value());
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const float size = ImGui::GetFontSize(), height = ImGui::GetIO().DisplaySize.y;
-  const glm::dvec3& origin = viewer.state().snapshot->mesh->frame_origin;
+  const float height = ImGui::GetIO().DisplaySize.y;
   for (const bool second : {false, true}) {
     if (second && split.right == 0) break;
     const MarkedPicture picture{viewer.markedCamera(), second ? static_cast<float>(split.right_at) : 0,
                                 static_cast<float>(second ? split.right : split.left), height};
     list.PushClipRect({picture.left, 0}, {picture.left + picture.width, height});
+    draw(list, picture);
+    list.PopClipRect();
+  }
+}
+
+void markOutline(ImDrawList& list, const MarkedPicture& picture,
+                 std::span<const std::pair<glm::vec3, glm::vec3>> edges, ImU32 colour) {
+  const float size = ImGui::GetFontSize();
+  for (const auto& [a, b] : edges) {
+    const auto from = picture.at(glm::dvec3(a)), to = picture.at(glm::dvec3(b));
+    if (!from || !to) continue;
+    list.AddLine(*from, *to, kShade, 0.2f * size);
+    list.AddLine(*from, *to, colour, 0.1f * size);
+  }
+}
+
+void buildMarks(const Viewer& viewer, int scene_width) {
+  const Picking& picking = viewer.picking();
+  if (!picking.picked() && picking.pinned().empty()) return;
+  const float size = ImGui::GetFontSize();
+  const glm::dvec3& origin = viewer.state().snapshot->mesh->frame_origin;
+  forEachMarkedPicture(viewer, scene_width, [&](ImDrawList& list, const MarkedPicture& picture) {
     if (picking.picked()) markPicked(list, picture, *picking.picked(), size);
     for (std::size_t k = 0; k < picking.pinned().size(); ++k) {
       if (const auto at = picture.at(picking.pinned()[k].probe.position - origin))
         markProbe(list, *at, std::to_string(k + 1), size);
     }
-    list.PopClipRect();
-  }
+  });
 }
 
 }  // namespace unshot

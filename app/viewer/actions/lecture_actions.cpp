@@ -1,0 +1,99 @@
+// Actions: the hemicube and the lecture on the screen.
+#include "viewer/actions/action_groups.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <array>
+
+#include "viewer/actions/action_arguments.h"
+#include "viewer/teaching.h"
+#include "viewer/viewer.h"
+
+namespace unshot {
+namespace {
+
+constexpr std::array<std::string_view, 3> kChannels = {"red", "green", "blue"};
+
+std::string checkChannel(const std::string& text) {
+  for (const std::string_view channel : kChannels) {
+    if (text == channel) return {};
+  }
+  return "'" + text + "' is neither red, green nor blue";
+}
+
+std::string checkReflectanceOfAll(const std::string& text) {
+  const std::optional<double> number = parseNumber(text);
+  return number && *number >= 0.5 && *number <= 1.2 ? "" : "'" + text + "' is no number from 0.5 to 1.2";
+}
+
+}  // namespace
+
+std::span<const Action> lectureActions() {
+  static constexpr auto kActions = std::to_array<Action>({
+      {"hemicube-view",
+       "[on|off]",
+       "Show or hide what the picked patch, or the one that shoots, sees through its hemicube",
+       {GLFW_KEY_U, false, "U"},
+       [](Viewer& v, const std::string& a) { setSwitch(v.teaching().choices.hemicube, a); },
+       checkSwitch},
+      {"hemicube-picture",
+       "KEY",
+       "What the hemicube's pixels show: light, materials, patches, delta, shares",
+       {},
+       [](Viewer& v, const std::string& a) {
+         v.teaching().choices.picture = findChoice(hemicubePictures(), a, "picture of a hemicube").colours;
+       },
+       [](const std::string& a) { return checkKey(hemicubePictures(), false, a); }},
+      {"lecture",
+       "[on|off]",
+       "Show or hide the lecture: matrix, equation, single shots, effects",
+       {GLFW_KEY_T, false, "T"},
+       [](Viewer& v, const std::string& a) { setSwitch(v.teaching().choices.lecture, a); },
+       checkSwitch},
+      {"lecture-page",
+       "KEY",
+       "Open the lecture at this page: matrix, equation, shots, effects",
+       {},
+       [](Viewer& v, const std::string& a) {
+         v.teaching().choices.page = findChoice(lecturePages(), a, "page of the lecture").page;
+         v.teaching().choices.lecture = true;
+       },
+       [](const std::string& a) { return checkKey(lecturePages(), false, a); }},
+      {"matrix-power",
+       "K",
+       "Which power of M, or partial sum up to it, the lecture shows",
+       {},
+       [](Viewer& v, const std::string& a) { v.teaching().choices.power = whole(a); },
+       checkWhole<0, MatrixSeries::kMost>},
+      {"matrix-sums",
+       "[on|off]",
+       "The partial sum I + M + ... + M^k in the lecture, or the power M^k",
+       {},
+       [](Viewer& v, const std::string& a) { setSwitch(v.teaching().choices.sums, a); },
+       checkSwitch},
+      {"matrix-channel",
+       "red|green|blue",
+       "Whose reflectance is in the lecture's matrix",
+       {},
+       [](Viewer& v, const std::string& a) {
+         v.teaching().choices.channel = a == kChannels[0] ? 0 : a == kChannels[1] ? 1 : 2;
+       },
+       checkChannel},
+      {"allow-divergence",
+       "[on|off]",
+       "Let the lecture's matrix have one reflectance for all, also 1 and above",
+       {},
+       [](Viewer& v, const std::string& a) { setSwitch(v.teaching().choices.allow_divergence, a); },
+       checkSwitch},
+      {"matrix-reflectance",
+       "R",
+       "That reflectance, 0.5 to 1.2",
+       {},
+       [](Viewer& v, const std::string& a) { v.teaching().choices.reflectance = *parseNumber(a); },
+       checkReflectanceOfAll},
+  });
+  return kActions;
+}
+
+}  // namespace unshot

@@ -1,0 +1,166 @@
+#include "viewer/panels/hemicube_panel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "render/display_modes.h"
+#include "viewer/panels/lecture_panel.h"
+#include "viewer/panels/widgets.h"
+#include "viewer/teaching.h"
+
+namespace unshot {
+namespace {
+
+constexpr float kSide = 17;                            // of the cross, in letters' heights
+constexpr float kLines = 8;                            // of text beside it, the same
+constexpr float kMostShare = 0.45f;                    // of the window's height that it takes
+constexpr float kLegendWidth = 26, kLegendHeight = 6;  // of the legend of false colours, in letters' heights
+
+ImTextureID textureId(const gl::Texture& texture) {
+  return reinterpret_cast<ImTextureID>(std::uintptr_t{texture.id()});
+}
+
+void choosePicture(Viewer& viewer, float width) {
+  const HemicubeColours shown = viewer.teaching().choices.picture;
+  const auto rows = hemicubePictures();
+  const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.colours == shown; });
+  ImGui::SetNextItemWidth(width);
+  const std::string key =
+      choose("##picture", rows, std::string(row->info.key), std::string(row->info.title), nullptr);
+  if (!key.empty()) viewer.perform("hemicube-picture", key);
+}
+
+/// What the pixel at (x, y) of the cross sees.
+void pixelTip(Viewer& viewer, std::uint32_t x, std::uint32_t y) {
+  Teaching& teaching = viewer.teaching();
+  const HemicubeLook& look = *teaching.look();
+  const std::optional<std::size_t> pixel = crossPixel(look.layout, x, y);
+  if (!pixel) return;
+  const std::uint32_t patch = look.patchAt(*pixel);
+  std::string text =
+      patch == kNone ? "Nothing: what leaves here escapes" : "Patch " + patchText(*look.mesh, patch);
+  text += "\nThis pixel: \u0394F = " + figureText((*look.delta)[*pixel]);
+  const double share = teaching.shares()[patch == kNone ? look.mesh->patch_count : patch];
+  text += "\nAll of its pixels: F = " + figureText(share);
+  const PatchInsight* known = teaching.patch();
+  if (known && known->patch == look.patch && !known->sent.empty()) {
+    const double solved = patch == kNone ? known->escape : static_cast<double>(known->sent[patch]);
+    text += "\nThe solver's F: " + figureText(solved);
+  }
+  tooltip(text);
+  if (patch != kNone) teaching.markPatch(patch, false);
+}
+
+void cross(Viewer& viewer, float side) {
+  Teaching& teaching = viewer.teaching();
+  const gl::Texture* picture = teaching.cross();
+  if (!picture) {
+    ImGui::Dummy({side, side});
+    return;
+  }
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::Image(textureId(*picture), {side, side});
+  if (!ImGui::IsItemHovered()) return;
+  const ImVec2 mouse = ImGui::GetMousePos();
+  const auto size = static_cast<float>(crossSize(teaching.look()->layout));
+  const auto pixel = [&](float where) {
+    return static_cast<std::uint32_t>(std::clamp(where / side * size, 0.0f, size - 1));
+  };
+  pixelTip(viewer, pixel(mouse.x - at.x), pixel(mouse.y - at.y));
+}
+
+void sums(const Teaching& teaching) {
+  const HemicubeLook& look = *teaching.look();
+  double sum = 0;
+  for (const double delta : *look.delta) sum += delta;
+  const double escape = teaching.shares().back();
+  const std::string text = "\u2211\u0394F = " + figureText(sum - escape) +
+                           (escape > 0 ? ", escapes " + figureText(escape) : std::string());
+  ImGui::TextUnformatted(text.c_str());
+  tooltip(
+      "Delta form factors of all pixels that see something, and of those that see nothing: together 1. In a "
+      "closed scene nothing escapes");
+}
+
+}  // namespace
+
+std::string patchText(const Mesh& mesh, std::uint32_t patch) {
+  const Surface& surface = mesh.surfaces[mesh.sides[mesh.patch_side[patch]].surface];
+  return "no. " + std::to_string(patch) + ", " + mesh.materials[surface.material].name;
+}
+
+void hemicubeContent(Viewer& viewer, float side) {
+  Teaching& teaching = viewer.teaching();
+  const std::uint32_t patch = teaching.hemicubePatch();
+  const SessionState& state = viewer.state();
+  if (!state.snapshot || patch == kNone || patch >= state.snapshot->mesh->patch_count) {
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + side);
+    ImGui::TextDisabled("No patch is picked and none has light to shoot. Click a surface.");
+    ImGui::PopTextWrapPos();
+    return;
+  }
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + side);
+  ImGui::TextUnformatted(("Patch " + patchText(*state.snapshot->mesh, patch)).c_str());
+  ImGui::PopTextWrapPos();
+  tooltip(teaching.hemicubeIsPicked() ? "The picked patch. Esc: the patch that shoots"
+                                      : "The patch with the most unshot power, or the one of the last single "
+                                        "step. Click a surface for another");
+  if (const auto problem = teaching.problem()) {
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + side);
+    ImGui::TextUnformatted(problem->what());
+    ImGui::PopTextWrapPos();
+    return;
+  }
+  cross(viewer, side);
+  if (teaching.look()) sums(teaching);
+  teaching.markPatch(patch, true);
+}
+
+void buildHemicube(Viewer& viewer, int scene_width, float bottom) {
+  if (!viewer.teaching().choices.hemicube || lectureShowsHemicube(viewer)) return;
+  const float em = ImGui::GetFontSize(), height = bottom;
+  // Above the legend of false colours where they have no room beside each other.
+  const bool legend = displayMode(viewer.settings().view.display).false_colour &&
+                      static_cast<float>(scene_width) < (kSide + kLegendWidth) * em;
+  const float under = legend ? kLegendHeight * em : 0.7f * em;
+  const float room = std::min(static_cast<float>(scene_width) - 4 * em, height - under - kLines * em);
+  const float side = std::floor(std::min({kSide * em, room, kMostShare * height}));
+  if (side < 4 * em) return;
+  ImGui::SetNextWindowPos({0.7f * em, height - under}, ImGuiCond_Always, {0, 1});
+  ImGui::SetNextWindowBgAlpha(0.94f);
+  ImGui::Begin("hemicube", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
+  ImGui::BeginGroup();
+  ImGui::TextDisabled("Hemicube");
+  tooltip(
+      "What a patch sees through the five faces of half a cube, unfolded: the top in the middle, horizons "
+      "outside");
+  const float button = ImGui::CalcTextSize("\u00d7").x + 2 * ImGui::GetStyle().FramePadding.x;
+  ImGui::SameLine(ImGui::GetCursorStartPos().x + side - button);
+  if (ImGui::SmallButton("\u00d7")) viewer.perform("hemicube-view", "off");
+  tooltip("U: closes it");
+  ImGui::EndGroup();
+  ImGui::Dummy({side, 0});
+  choosePicture(viewer, side);
+  hemicubeContent(viewer, side);
+  ImGui::End();
+}
+
+void teachingSection(Viewer& viewer) {
+  if (!section("Lecture")) return;
+  const TeachingChoices& choices = viewer.teaching().choices;
+  bool on = choices.lecture;
+  if (ImGui::Checkbox("Lecture", &on)) viewer.perform("lecture", on ? "on" : "off");
+  tooltip(
+      "T: beside the scene, the matrix M, the equation with live numbers, single shots, and what radiosity "
+      "shows");
+  ImGui::SameLine(9.0f * ImGui::GetFontSize());
+  on = choices.hemicube;
+  if (ImGui::Checkbox("Hemicube", &on)) viewer.perform("hemicube-view", on ? "on" : "off");
+  tooltip(
+      "U: what the picked patch, or else the one that shoots, sees through the five faces of half a cube");
+}
+
+}  // namespace unshot

@@ -1,0 +1,92 @@
+#include "viewer/panels/lecture_panel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "viewer/panels/marks.h"
+#include "viewer/panels/panels.h"
+#include "viewer/panels/widgets.h"
+#include "viewer/teaching.h"
+
+namespace unshot {
+namespace {
+
+// At scale 1 [px]: its width, and how much of the scene is left beside both panels.
+constexpr double kWidth = 540, kLeastScene = 480;
+constexpr double kMostShare = 0.62;  // of the window, where that is small
+
+void page(Viewer& viewer, LecturePage shown) {
+  switch (shown) {
+    case LecturePage::kMatrix:
+      return matrixPage(viewer);
+    case LecturePage::kEquation:
+      return equationPage(viewer);
+    case LecturePage::kShots:
+      return shotsPage(viewer);
+    case LecturePage::kEffects:
+      return effectsPage();
+  }
+}
+
+void tabs(Viewer& viewer) {
+  const LecturePage shown = viewer.teaching().choices.page;
+  for (const LecturePageRow& row : lecturePages()) {
+    if (row.page != LecturePage::kMatrix) ImGui::SameLine();
+    const bool present = row.page == shown;
+    ImGui::PushStyleColor(ImGuiCol_Button,
+                          ImGui::GetStyleColorVec4(present ? ImGuiCol_TabActive : ImGuiCol_WindowBg));
+    ImGui::PushStyleColor(ImGuiCol_Text,
+                          ImGui::GetStyleColorVec4(present ? ImGuiCol_PlotLines : ImGuiCol_Text));
+    if (ImGui::Button(std::string(row.info.title).c_str()))
+      viewer.perform("lecture-page", std::string(row.info.key));
+    ImGui::PopStyleColor(2);
+    tooltip(row.info.help);
+  }
+  const float button = ImGui::CalcTextSize("\u00d7").x + 2 * ImGui::GetStyle().FramePadding.x;
+  ImGui::SameLine(std::max(ImGui::GetContentRegionMax().x - button, ImGui::GetCursorPosX()));
+  if (ImGui::Button("\u00d7")) viewer.perform("lecture", "off");
+  tooltip("T: closes the lecture");
+}
+
+}  // namespace
+
+bool lectureShowsHemicube(const Viewer& viewer) {
+  const TeachingChoices& choices = viewer.teaching().choices;
+  return choices.lecture && choices.page == LecturePage::kShots;
+}
+
+BesideScene besideScene(const Viewer& viewer, int width) {
+  const double scale = viewer.scale();
+  const int panel = panelWidth(viewer.ui(), scale, width);
+  if (!viewer.teaching().choices.lecture) return {panel, 0};
+  const int lecture = static_cast<int>(std::lround(std::min(kWidth * scale, kMostShare * width)));
+  return {width - panel - lecture >= kLeastScene * scale ? panel : 0, lecture};
+}
+
+void buildLecture(Viewer& viewer, int left, int width) {
+  if (width == 0) return;
+  ImGui::SetNextWindowPos({static_cast<float>(left), 0});
+  ImGui::SetNextWindowSize({static_cast<float>(width), ImGui::GetIO().DisplaySize.y});
+  ImGui::Begin("lecture", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoFocusOnAppearing);
+  tabs(viewer);
+  ImGui::Separator();
+  ImGui::BeginChild("page");
+  page(viewer, viewer.teaching().choices.page);
+  ImGui::EndChild();
+  ImGui::End();
+}
+
+void buildLectureMarks(Viewer& viewer, int scene_width) {
+  Teaching& teaching = viewer.teaching();
+  teaching.beginMarks();
+  if (teaching.marks().empty()) return;
+  forEachMarkedPicture(viewer, scene_width, [&](ImDrawList& list, const MarkedPicture& picture) {
+    for (const auto& mark : teaching.marks())
+      markOutline(list, picture, mark->outline,
+                  mark->source ? IM_COL32(255, 176, 64, 255) : IM_COL32(96, 190, 255, 255));
+  });
+}
+
+}  // namespace unshot

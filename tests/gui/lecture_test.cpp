@@ -1,0 +1,250 @@
+// The hemicube and the lecture in the viewer: what they show is what the solver has.
+#include <gtest/gtest.h>
+#include <imgui_internal.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <set>
+
+#include "formfactor/hemicube_view.h"
+#include "gui/support/program_pictures.h"
+#include "support/live_viewer.h"
+#include "viewer/hemicube_cross.h"
+#include "viewer/matrix_series.h"
+#include "viewer/teaching.h"
+
+namespace unshot {
+namespace {
+
+using testing_support::LiveViewer;
+using testing_support::picture;
+using testing_support::ProgramResult;
+using testing_support::runScript;
+using testing_support::showsSomething;
+using testing_support::TempFolder;
+
+const std::string kScenes = std::string(UNSHOT_SOURCE_DIR) + "/assets/";
+
+LiveViewer::Options cornellBox(const std::string& script) {
+  LiveViewer::Options options;
+  options.scene = kScenes + "cornell_box.obj";
+  options.solve.elements = 500;
+  options.solve.error = 0.01;
+  options.script = script;
+  options.width = 1280;
+  options.height = 800;
+  return options;
+}
+
+bool finished(LiveViewer& live) {
+  return live.until([&] { return live->scriptDone(); }) && live->exitCode() == 0;
+}
+
+/// Where a pixel of the layout looks.
+glm::dvec3 directionOf(HemicubeLayout layout, std::size_t pixel) {
+  const HemicubeFaces faces(HemicubeFrame{});
+  const auto row = static_cast<std::uint32_t>(pixel / layout.width()), n = layout.resolution;
+  const std::uint32_t face = row < n ? 0 : 1 + (row - n) / (n / 2);
+  const double x = (static_cast<double>(pixel % n) + 0.5) * 2 / n - 1;
+  const double y = (row - layout.faceRow(face) + 0.5) * 2 / n - (face == 0 ? 1 : 0);
+  return glm::normalize(faces.forward[face] + y * faces.up[face] +
+                        x * glm::cross(faces.forward[face], faces.up[face]));
+}
+
+TEST(HemicubeCross, HasEachPixelOnceAndNeighboursLookTheSameWay) {
+  const HemicubeLayout layout{32};
+  const std::uint32_t size = crossSize(layout);
+  std::set<std::size_t> seen;
+  for (std::uint32_t y = 0; y < size; ++y) {
+    for (std::uint32_t x = 0; x < size; ++x) {
+      const auto pixel = crossPixel(layout, x, y);
+      if (!pixel) continue;
+      EXPECT_TRUE(seen.insert(*pixel).second) << x << ", " << y;
+      // A pixel is no wider than 2 / n seen from the middle, and so are two halves of two pixels on either
+      // side of an edge.
+      for (const auto& beside : {crossPixel(layout, x + 1, y), crossPixel(layout, x, y + 1)}) {
+        if (!beside || x + 1 == size || y + 1 == size) continue;
+        EXPECT_LT(glm::length(directionOf(layout, *pixel) - directionOf(layout, *beside)), 2.01 / 32)
+            << x << ", " << y;
+      }
+    }
+  }
+  EXPECT_EQ(seen.size(), std::size_t{layout.width()} * layout.height());
+}
+
+TEST(MatrixSeries, OfAMatrixThatIsKnown) {
+  // Two patches that see each other alone: M swings, its powers are 0.06^k.
+  MatrixSeries series({0, 0.2, 0.3, 0}, 2);
+  EXPECT_NEAR(series.radius(), std::sqrt(0.06), 1e-4);
+  EXPECT_EQ(series.power(0), (std::vector<double>{1, 0, 0, 1}));
+  EXPECT_NEAR(series.power(4)[0], 0.0036, 1e-15);
+  EXPECT_NEAR(series.norm(1), 0.3, 1e-15);
+  // (I - M)^-1 = [1 0.2; 0.3 1] / 0.94.
+  const std::vector<double> sum = series.sum(40);
+  EXPECT_NEAR(sum[0], 1 / 0.94, 1e-12);
+  EXPECT_NEAR(sum[1], 0.2 / 0.94, 1e-12);
+  EXPECT_NEAR(sum[2], 0.3 / 0.94, 1e-12);
+  EXPECT_NEAR(series.light({1, 0}, 40)[1], 0.3 / 0.94, 1e-12);
+  MatrixSeries growing({0, 1.2, 1.2, 0}, 2);
+  EXPECT_NEAR(growing.radius(), 1.2, 1e-4);
+  EXPECT_GT(growing.norm(20), growing.norm(10));
+}
+
+// 500 elements are about a hundred patches, twice as many as groups. Gathering counts the patches of a group
+// as equally bright, which here is worth 5 % of the power; the series itself ends at 0.5^64.
+TEST(Lecture, PartialSumsTendToTheSolvesLight) {
+  const TempFolder folder;
+  LiveViewer live(cornellBox("wait converged\ncomplete-bounces\nlecture-page matrix\nscreenshot-scene " +
+                             (folder.path() / "a.png").string() + "\n"));
+  ASSERT_TRUE(finished(live));
+  Teaching& teaching = live->teaching();
+  ASSERT_TRUE(teaching.insight() && teaching.insight()->matrix);
+  const GatheredMatrix& m = *teaching.insight()->matrix;
+  EXPECT_EQ(m.missing, 0u);
+  for (int channel = 0; channel < 3; ++channel) {
+    teaching.choices.channel = channel;
+    const std::vector<double> solved = teaching.solution(), e = teaching.emission();
+    double before = 0;
+    for (const std::size_t k : {0u, 1u, 3u, 64u}) {
+      const std::vector<double> light = teaching.series().light(e, k);
+      double sum = 0, all = 0;
+      for (std::size_t i = 0; i < m.size(); ++i) {
+        sum += m.groups[i].area * light[i];
+        all += m.groups[i].area * solved[i];
+      }
+      EXPECT_GT(sum / all, before);
+      before = sum / all;
+    }
+    EXPECT_NEAR(before, 1, 0.05) << "channel " << channel;
+    EXPECT_LT(teaching.series().radius(), 0.8);
+  }
+  live->perform("allow-divergence", "on");
+  live->perform("matrix-reflectance", "1.2");
+  EXPECT_GT(teaching.series().radius(), 1);
+}
+
+// The picture and the solver's column are two samplings of one thing: pixels of 128 from the middle of the
+// patch, against parts of it where something is near. 2 % of all light in any one patch.
+TEST(Hemicube, ThePictureHasTheSolversFormFactors) {
+  const TempFolder folder;
+  LiveViewer live(cornellBox("wait converged\npick 0.5,0.2\nhemicube-view on\nscreenshot-scene " +
+                             (folder.path() / "a.png").string() + "\n"));
+  ASSERT_TRUE(finished(live));
+  const Teaching& teaching = live->teaching();
+  const std::uint32_t patch = live->picking().required().pick.patch;
+  ASSERT_TRUE(teaching.look());
+  EXPECT_EQ(teaching.look()->patch, patch);
+  const std::vector<double>& delta = *teaching.look()->delta;
+  EXPECT_NEAR(std::accumulate(delta.begin(), delta.end(), 0.0), 1, 1e-12);
+  EXPECT_NEAR(std::accumulate(teaching.shares().begin(), teaching.shares().end(), 0.0), 1, 1e-9);
+  ASSERT_TRUE(teaching.patch());
+  ASSERT_EQ(teaching.patch()->patch, patch);
+  ASSERT_EQ(teaching.patch()->sent.size() + 1, teaching.shares().size());
+  for (std::size_t q = 0; q < teaching.patch()->sent.size(); ++q)
+    EXPECT_NEAR(teaching.shares()[q], static_cast<double>(teaching.patch()->sent[q]), 0.02) << q;
+  EXPECT_NEAR(teaching.shares().back(), teaching.patch()->escape, 0.02);
+}
+
+TEST(Hemicube, FollowsThePatchThatShootsAndTheOneThatIsPicked) {
+  const TempFolder folder;
+  LiveViewer live(cornellBox("pause on\nhemicube-view on\nstep\nwait shots 1\nscreenshot-scene " +
+                             (folder.path() / "a.png").string() + "\n"));
+  ASSERT_TRUE(finished(live));
+  const Teaching& teaching = live->teaching();
+  ASSERT_TRUE(teaching.insight() && teaching.insight()->shot);
+  EXPECT_EQ(teaching.hemicubePatch(), teaching.insight()->shot->patch);
+  EXPECT_FALSE(teaching.hemicubeIsPicked());
+  live->pick({0.5, 0.3});
+  ASSERT_TRUE(live.until([&] {
+    return teaching.hemicubeIsPicked() && teaching.look() &&
+           teaching.look()->patch == live->picking().required().pick.patch;
+  }));
+  live->perform("unpick");
+  ASSERT_TRUE(live.until([&] { return !teaching.hemicubeIsPicked(); }));
+}
+
+/// The mouse rests there for some frames.
+void hover(LiveViewer& live, float x, float y) {
+  ImGui::GetIO().MousePos = {x, y};
+  live->input();
+  for (int frame = 0; frame < 4; ++frame) live.draw();
+}
+
+// At 1280 x 800 the lecture is 540 px wide, its left map in the upper left of it, the hemicube in the lower
+// left of the scene.
+TEST(Lecture, WhatTheMouseIsOverIsFramedInTheScene) {
+  LiveViewer live(
+      cornellBox("wait converged\ncomplete-bounces\nlecture-page matrix\nhemicube-view on\npick 0.5,0.3\n"));
+  ASSERT_TRUE(finished(live));
+  ASSERT_TRUE(live.until([&] { return live->nextFrame(0) > 1e30; }));
+  const Teaching& teaching = live->teaching();
+  EXPECT_EQ(teaching.marks().size(), 1u) << "the patch of the hemicube";
+  hover(live, 870, 300);
+  ASSERT_EQ(teaching.marks().size(), 3u) << "two groups more";
+  for (const auto& mark : teaching.marks()) EXPECT_GE(mark->outline.size(), 3u);
+  hover(live, 40, 630);
+  EXPECT_EQ(teaching.marks().size(), 2u) << "a side face: what the hemicube's pixel sees";
+  hover(live, 400, 100);
+  EXPECT_EQ(teaching.marks().size(), 1u);
+}
+
+/// Right and bottom edges of ImGui's windows lie in the window, and none but a popup covers another.
+void expectNoOverlap(int width, int height) {
+  const ImGuiContext& gui = *ImGui::GetCurrentContext();
+  std::vector<const ImGuiWindow*> shown;
+  for (const ImGuiWindow* window : gui.Windows) {
+    if (!window->WasActive || window->Hidden || (window->Flags & ImGuiWindowFlags_ChildWindow) != 0 ||
+        std::string_view(window->Name).starts_with("Debug"))
+      continue;
+    shown.push_back(window);
+    EXPECT_GE(window->Pos.x, 0) << window->Name;
+    EXPECT_GE(window->Pos.y, 0) << window->Name;
+    EXPECT_LE(window->Pos.x + window->Size.x, static_cast<float>(width)) << window->Name;
+    EXPECT_LE(window->Pos.y + window->Size.y, static_cast<float>(height)) << window->Name;
+  }
+  for (std::size_t a = 0; a < shown.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b)
+      EXPECT_FALSE(shown[a]->Rect().Overlaps(shown[b]->Rect()))
+          << shown[a]->Name << " and " << shown[b]->Name;
+  }
+}
+
+TEST(Lecture, EveryPageHasRoomAtEverySizeAndScale) {
+  for (const auto& [width, height, scale] : {std::tuple{1280, 800, 1.0}, {640, 360, 1.0}, {1280, 720, 2.0}}) {
+    LiveViewer::Options options =
+        cornellBox("wait converged\ncomplete-bounces\npick 0.5,0.3\nhemicube-view on\n");
+    options.width = width;
+    options.height = height;
+    LiveViewer live(options);
+    ASSERT_TRUE(finished(live));
+    live->setScale(scale);
+    for (const std::string page : {"", "matrix", "equation", "shots", "effects"}) {
+      for (const char* display : {"radiosity", "form-factors"}) {
+        SCOPED_TRACE(std::to_string(width) + " x " + std::to_string(height) + ", " + page + ", " + display);
+        if (!page.empty()) live->perform("lecture-page", page);
+        live->perform("display", display);
+        ASSERT_TRUE(live.until([&] { return live->nextFrame(0) > 1e30; })) << "never at rest";
+        expectNoOverlap(width, height);
+        EXPECT_FALSE(live->error());
+      }
+    }
+  }
+}
+
+TEST(Lecture, PicturesOfAPatchAndOfAShotShowSomething) {
+  const TempFolder folder;
+  const ProgramResult run = runScript(
+      folder,
+      "pause on\nstep 3\nwait shots 3\nlecture-page shots\nstep\nwait shots 4\ndisplay last-shot\n"
+      "screenshot-scene shot.png\npick 0.5,0.5\ndisplay form-factors\nscreenshot-scene factors.png\n"
+      "unpick\nscreenshot-scene none.png\n",
+      {"--size", "300x240", "--elements", "300"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_TRUE(showsSomething(picture(folder, "shot.png")));
+  EXPECT_TRUE(showsSomething(picture(folder, "factors.png")));
+  EXPECT_NE(folder.read("factors.png"), folder.read("none.png"));
+}
+
+}  // namespace
+}  // namespace unshot
