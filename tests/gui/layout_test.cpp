@@ -136,7 +136,7 @@ class Layout : public testing::TestWithParam<Window> {
 
   const TempFolder folder_;
   mutable LiveViewer viewer_{
-      {std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj", options(), "", 640, 360}};
+      {std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj", options(), "", {}, 640, 360}};
 
  private:
   static SolveOptions options() {

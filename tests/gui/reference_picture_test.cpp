@@ -50,7 +50,7 @@ class ReferencePictures : public testing::Test {
 
   const TempFolder folder_;
   LiveViewer viewer_{
-      {std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj", options(), "", kWidth, kHeight}};
+      {std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj", options(), "", {}, kWidth, kHeight}};
   std::string all_, direct_;
 
  private:

@@ -2,9 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <set>
 #include <sstream>
 
 #include "base/error.h"
+#include "render/display_modes.h"
 #include "support/temp_folder.h"
 
 namespace unshot {
@@ -90,6 +92,15 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"wait shots -3", "needs a number"}, Refused{"wait seconds inf", "needs a number"},
         Refused{"wait seconds nan", "needs a number"}, Refused{"wait seconds 1s", "needs a number"},
         Refused{"wait converged 3", "takes no number"}, Refused{"wait shots 3 4", "says too much"}));
+
+TEST(Script, TheGalleryShowsEveryDisplayMode) {
+  std::set<std::string> shown;
+  for (const ScriptLine& line : readScript(std::string(UNSHOT_SOURCE_DIR) + "/docs/gallery.script")) {
+    if (line.action == "display") shown.insert(line.argument);
+  }
+  for (const DisplayMode& mode : displayModes())
+    EXPECT_TRUE(shown.contains(std::string(mode.info.key))) << mode.info.key;
+}
 
 TEST(Script, AFileThatCannotBeReadIsAnInputError) {
   const testing_support::TempFolder folder;
