@@ -22,6 +22,7 @@ void Viewer::navigate(double seconds) {
   const Camera before = navigator_.camera();
   // What the mouse moved in the frame of a click, it moved before.
   const bool clicked = std::any_of(std::begin(io.MouseClicked), std::end(io.MouseClicked), std::identity());
+  if (clicked) endHint();
   if (!io.WantCaptureMouse && !clicked && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
     const glm::dvec2 motion(io.MouseDelta.x, io.MouseDelta.y);
     if (io.MouseDown[ImGuiMouseButton_Middle] || (io.MouseDown[ImGuiMouseButton_Left] && io.KeyShift)) {

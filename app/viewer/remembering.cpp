@@ -54,12 +54,27 @@ void Viewer::rememberCamera(const SessionState& state) {
 }
 
 void Viewer::recallPanel() {
+  ui_.hint = memory_.on() && script_.empty() && !memory_.setting("hint");
   const std::string text = memory_.setting("scale").value_or("");
   const std::optional<double> scale = parseNumber(text);
   if (scale && *scale >= 0.1 && *scale <= 10) relative_scale_ = *scale;
   for (const Switch& one : kSwitches) {
     if (const auto value = memory_.setting(one.key)) ui_.*one.value = *value == "on";
   }
+}
+
+/// It stays until it was surely seen, and is not shown again.
+void Viewer::followHint(double now) {
+  constexpr double kHintSeconds = 12;
+  if (!ui_.hint) return;
+  if (hint_until_ == 0 && sceneStands()) hint_until_ = now + kHintSeconds;
+  if (hint_until_ > 0 && now >= hint_until_) endHint();
+}
+
+void Viewer::endHint() {
+  if (!std::exchange(ui_.hint, false)) return;
+  memory_.keepSetting("hint", "seen");
+  input();
 }
 
 void Viewer::rememberPanel() {
@@ -88,6 +103,27 @@ void Viewer::followSections(ImGuiStorage& sections) {
   sections_.clear();
   for (const ImGuiStorage::ImGuiStoragePair& pair : sections.Data)
     sections_.emplace_back(pair.key, pair.val_i);
+}
+
+void Viewer::searchActions(const std::string& text) { ui_.prompt.begin(PromptKind::kActions, text); }
+
+void Viewer::browse(const std::filesystem::path& folder) {
+  FileList& files = ui_.prompt.files;
+  std::error_code error;
+  const auto isFolder = [&](const std::filesystem::path& path) {
+    return std::filesystem::is_directory(path, error);
+  };
+  const std::filesystem::path last = memory_.setting("folder").value_or("");
+  if (!folder.empty()) {
+    files.open(folder);
+  } else if (!files.folder().empty()) {
+    files.open(files.folder());  // it may hold others now
+  } else if (!last.empty() && isFolder(last)) {
+    files.open(last);
+  } else {
+    files.open(state_->facts ? state_->facts->scene_path.parent_path() : std::filesystem::path());
+  }
+  ui_.prompt.begin(PromptKind::kScenes, "");
 }
 
 void Viewer::reload() {

@@ -85,6 +85,7 @@ void Viewer::update(double now) {
   followTeaching();
   runScript(now);
   if (watch_.look(now)) input();
+  followHint(now);
   if (!notice_.empty() && now >= notice_until_) {
     notice_.clear();
     input();
@@ -169,6 +170,7 @@ void Viewer::perform(std::string_view action, const std::string& argument) {
 }
 
 void Viewer::key(int key, bool ctrl) {
+  endHint();
   if (const Action* action = actionOfKey(key, ctrl)) perform(action->key, action->argumentOfKey(key));
 }
 
@@ -188,6 +190,8 @@ void Viewer::showError(const Error& error) {
 void Viewer::dismiss() {
   if (error_) {
     error_.reset();
+  } else if (ui_.prompt.open()) {
+    ui_.prompt.close();
   } else if (ui_.help) {
     ui_.help = false;
   } else if (state_->phase == SessionPhase::kLoading) {
@@ -340,54 +344,9 @@ void Viewer::resizeWindow(int width, int height) {
   if (setup_.resize) setup_.resize(width, height);
 }
 
-// The script.
-
-bool Viewer::settled() const {
-  return session_.sent() == state_->commands && state_->phase != SessionPhase::kLoading && !frame_wanted_ &&
-         !scene_.framing() && captures_.empty() && !state_->spareWork() && teaching_->settled();
-}
-
-bool Viewer::waitIsOver(const ScriptLine& line, double now) {
-  if (wait_began_ < 0) wait_began_ = now;
-  if (session_.sent() != state_->commands) return false;
-  const SessionPhase phase = state_->phase;
-  if (phase != SessionPhase::kRunning && phase != SessionPhase::kLoading && phase != SessionPhase::kPaused)
-    return true;
-  if (line.wait == WaitFor::kSeconds) return now >= wait_began_ + line.amount;
-  // Paused, nothing will happen any more.
-  if (phase == SessionPhase::kPaused) return true;
-  return line.wait == WaitFor::kShots && phase == SessionPhase::kRunning &&
-         static_cast<double>(state_->measures.shots) >= line.amount;
-}
-
-// What stands between two waits happens at once: no shot falls between `restart` and `pause on`.
-void Viewer::runScript(double now) {
-  if (scriptDone()) return;
-  if (!hold_) hold_.emplace(session_);
-  runScriptLines(now);
-  hold_.reset();
-}
-
-void Viewer::runScriptLines(double now) {
-  while (script_at_ < script_.size() && !closing_ && captures_.empty() && !pick_wanted_) {
-    const ScriptLine& line = script_[script_at_];
-    if (line.wait != WaitFor::kNothing) {
-      if (!waitIsOver(line, now)) return;
-      wait_began_ = -1;
-    } else {
-      if (findAction(line.action).when_settled && !settled()) {
-        // A scene that cannot be opened leaves nothing to settle.
-        const bool nothing = session_.sent() == state_->commands && state_->phase == SessionPhase::kEmpty;
-        if (!nothing) return;
-      }
-      perform(line.action, line.argument);
-    }
-    ++script_at_;
-  }
-}
-
 double Viewer::nextUpdate() const {
-  double next = std::min(notice_.empty() ? kNever : notice_until_, watch_.nextLook());
+  double next = ui_.hint && hint_until_ > 0 ? hint_until_ : kNever;
+  next = std::min({next, notice_.empty() ? kNever : notice_until_, watch_.nextLook()});
   if (script_at_ < script_.size() && script_[script_at_].wait == WaitFor::kSeconds && wait_began_ >= 0)
     next = std::min(next, wait_began_ + script_[script_at_].amount);
   return next;

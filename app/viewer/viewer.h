@@ -28,6 +28,7 @@
 #include "viewer/memory.h"
 #include "viewer/navigator.h"
 #include "viewer/picking.h"
+#include "viewer/prompt.h"
 #include "viewer/reference_picture.h"
 #include "viewer/scene_area.h"
 #include "viewer/scene_watch.h"
@@ -69,10 +70,13 @@ struct ViewerState {
   bool panel = true;
   bool status = true;  ///< with the panel: the line at the bottom of the scene
   bool help = false;
-  bool notes = false;        ///< those on the scene, in full
-  bool left_out = false;     ///< what the solve leaves out, in full
-  bool materials = false;    ///< to be changed
-  std::size_t material = 0;  ///< the one chosen
+  bool notes = false;      ///< those on the scene, in full
+  bool left_out = false;   ///< what the solve leaves out, in full
+  bool materials = false;  ///< to be changed
+  bool hint = false;       ///< what to do first
+  Prompt prompt;
+  std::vector<std::filesystem::path> recent;  ///< scenes, as of when the list was opened
+  std::size_t material = 0;                   ///< the one chosen
   PlotAxis plot_axis = PlotAxis::kSeconds;
   double wipe = 0.5;                ///< where the reference picture begins: 0 left, 1 right
   bool picture_difference = false;  ///< the difference from the reference picture, instead
@@ -236,6 +240,10 @@ class Viewer {
   void notice(std::string text);
   void showError(const Error& error);
   const std::optional<Error>& error() const { return error_; }
+  /// A list of all actions, or of a folder's scenes (none: where the last one was), with a text to begin
+  /// with.
+  void searchActions(const std::string& text);
+  void browse(const std::filesystem::path& folder);
   /// Closes what lies over the scene: the message, else the help, else gives up loading or what is picked.
   void dismiss();
   void close() { closing_ = true; }
@@ -296,6 +304,8 @@ class Viewer {
   void applyScale();
   bool recallCamera();
   void rememberCamera(const SessionState& state);
+  void followHint(double now);
+  void endHint();
   void recallPanel();
   void rememberPanel();
   ReferencePicture::Look referenceLook() const;
@@ -329,6 +339,7 @@ class Viewer {
   std::optional<Camera> found_camera_;  // the automatic one, which need not be remembered
   bool camera_from_memory_ = true;      // where there is one, for the scene that is framed next
   bool sections_restored_ = false;
+  double hint_until_ = 0;  // 0: the scene is not there yet
   std::vector<std::pair<ImGuiID, int>> sections_;
 
   // Frames.

@@ -69,6 +69,8 @@ const std::map<std::string_view, std::string>& validArguments() {
       {"open", kScenes + "two_patches.obj"},
       {"pause", "on"},
       {"step", "2"},
+      {"browse", kScenes},
+      {"actions", "bounces 2"},
       {"watch", "on"},
       {"mode", "jacobi"},
       {"race", "southwell"},

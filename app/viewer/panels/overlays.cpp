@@ -1,10 +1,10 @@
-// What lies over the scene: messages, help, what is being loaded.
+// What lies over the scene: messages, what is being loaded, help and prompts.
 #include <algorithm>
-#include <array>
 
-#include "viewer/actions/actions.h"
+#include "viewer/panels/help_panel.h"
 #include "viewer/panels/panels.h"
 #include "viewer/panels/picked_panel.h"
+#include "viewer/panels/prompt_panel.h"
 #include "viewer/panels/race_panel.h"
 #include "viewer/panels/widgets.h"
 
@@ -14,56 +14,7 @@ namespace {
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
                                     ImGuiWindowFlags_NoFocusOnAppearing;
-
-struct MouseRow {
-  const char* keys;
-  const char* what;
-};
-
-constexpr std::array<MouseRow, 8> kMouse = {{{"Click", "What is there: light, element, plan"},
-                                             {"Left drag", "Orbit around the point looked at"},
-                                             {"Right drag", "Look around"},
-                                             {"Middle drag, Shift+left", "Move sideways and up"},
-                                             {"Wheel", "Nearer, farther"},
-                                             {"W A S D, Q E", "Fly; down and up. Shift: faster"},
-                                             {"Wheel while looking", "Speed of flight"},
-                                             {"Drop a file", "Open an OBJ scene"}}};
-
-void helpRow(const char* keys, const std::string& what, float room) {
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  ImGui::TextUnformatted(keys);
-  ImGui::TableNextColumn();
-  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + room);
-  ImGui::TextUnformatted(what.c_str());
-  ImGui::PopTextWrapPos();
-}
-
-void helpHeading(const char* text) {
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_PlotLines), "%s", text);
-}
-
-void helpWindow(float middle) {
-  const float height = ImGui::GetIO().DisplaySize.y;
-  ImGui::SetNextWindowPos({middle, height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSizeConstraints({0, 0}, {2 * middle, height});
-  ImGui::SetNextWindowBgAlpha(0.94f);
-  ImGui::Begin("help", nullptr, kFixed);
-  const float room = 2 * middle - 13 * ImGui::GetFontSize();  // beside the keys
-  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
-    helpHeading("Moving");
-    for (const MouseRow& row : kMouse) helpRow(row.keys, row.what, room);
-    helpHeading("Keys");
-    for (const Action& action : actions()) {
-      if (action.shortcut.key != 0)
-        helpRow(std::string(action.shortcut.text).c_str(), std::string(action.help), room);
-    }
-    ImGui::EndTable();
-  }
-  ImGui::End();
-}
+constexpr const char* kHint = "Drag to orbit, click to pick, H for help, Ctrl+P for all actions";
 
 void errorWindow(Viewer& viewer, float middle) {
   const Error& error = *viewer.error();
@@ -137,7 +88,7 @@ void buildOverlays(Viewer& viewer, int scene_width, float bottom, const std::str
   } else if (framing && state.facts) {
     line("framing", "looking for a good view \u2026", {middle, height / 2}, {0.5f, 0.5f});
   } else if (state.phase == SessionPhase::kEmpty && !viewer.error()) {
-    line("empty", "Drop an OBJ scene here", {middle, height / 2}, {0.5f, 0.5f});
+    line("empty", "Drop an OBJ scene here, or Ctrl+O", {middle, height / 2}, {0.5f, 0.5f});
   } else if (state.stopped_by == "no light") {
     line("dark", "No light: no face of this scene emits any (Ke above 0), nor does a sky",
          {middle, height / 2}, {0.5f, 0.5f});
@@ -145,11 +96,14 @@ void buildOverlays(Viewer& viewer, int scene_width, float bottom, const std::str
   if (viewer.error()) {
     errorWindow(viewer, middle);
   } else if (viewer.ui().help) {
-    helpWindow(middle);
+    buildHelp(middle);
   }
+  buildPrompt(viewer, middle);
   if (viewer.sceneChanged() && !viewer.error() && state.phase != SessionPhase::kLoading)
     changedWindow(viewer, middle);
-  if (!notice.empty()) line("notice", notice, {middle, bottom - 0.7f * size}, {0.5f, 1});
+  const std::string said = notice.empty() && viewer.ui().hint ? kHint : notice;
+  if (!said.empty())
+    line("notice", brokenText(said, 2 * middle - 3 * size), {middle, bottom - 0.7f * size}, {0.5f, 1});
 }
 
 }  // namespace unshot

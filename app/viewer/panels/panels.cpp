@@ -19,6 +19,7 @@
 #include "viewer/panels/picked_panel.h"
 #include "viewer/panels/plan_panel.h"
 #include "viewer/panels/race_panel.h"
+#include "viewer/panels/scene_panel.h"
 #include "viewer/panels/status_line.h"
 #include "viewer/panels/theme.h"
 #include "viewer/panels/widgets.h"
@@ -33,35 +34,6 @@ template <class Row>
 std::string shownChoice(std::span<const Row> table, const std::string& asked, const std::string& became) {
   if (asked != "auto") return titleOf(table, asked);
   return became.empty() ? "Automatic" : titleOf(table, became);
-}
-
-void chooseScene(Viewer& viewer) {
-  const SessionState& state = viewer.state();
-  const ImGuiStyle& style = ImGui::GetStyle();
-  const float buttons = ImGui::CalcTextSize("Save").x + ImGui::CalcTextSize("Help").x +
-                        4 * style.FramePadding.x + 2 * style.ItemSpacing.x;
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - buttons);
-  const std::string shown = state.facts ? state.facts->scene_name : "no scene";
-  if (ImGui::BeginCombo("##scene", shown.c_str(), ImGuiComboFlags_HeightLarge)) {
-    for (const std::filesystem::path& scene : viewer.bundledScenes()) {
-      const bool present = state.facts && state.facts->scene_path == scene;
-      if (ImGui::Selectable(scene.stem().string().c_str(), present)) viewer.perform("open", scene.string());
-    }
-    ImGui::TextDisabled("or drop an OBJ file on the window");
-    ImGui::EndCombo();
-  } else {
-    tooltip(state.facts ? state.facts->scene_path.string() : "Scenes to begin with");
-  }
-  ImGui::SameLine();
-  ImGui::BeginDisabled(!state.facts);
-  if (ImGui::Button("Save")) viewer.perform("save-solve");
-  tooltip(
-      "Ctrl+S: saves the solve with its form factors in the working folder. unshot view SCENE.obj --resume "
-      "FILE goes on from it");
-  ImGui::EndDisabled();
-  ImGui::SameLine();
-  if (ImGui::Button("Help")) viewer.perform("help");
-  tooltip("H: keys and mouse");
 }
 
 void head(Viewer& viewer) {

@@ -1,0 +1,233 @@
+#include "viewer/panels/prompt_panel.h"
+
+#include <algorithm>
+
+#include "viewer/actions/action_search.h"
+#include "viewer/panels/widgets.h"
+#include "viewer/viewer.h"
+
+namespace unshot {
+namespace {
+
+constexpr float kRows = 14;
+constexpr float kWidth = 44;       // in letters' heights
+constexpr float kHelpBeside = 34;  // from this width on help stands beside the names
+constexpr float kHelpColumn = 15;
+
+enum class Entered { kNothing, kEnter, kTab, kUp, kDown, kEscape };
+
+struct Typing {
+  Prompt& prompt;
+  Entered entered = Entered::kNothing;
+};
+
+int takeEvent(ImGuiInputTextCallbackData* data) {
+  Typing& typing = *static_cast<Typing*>(data->UserData);
+  if (data->EventFlag == ImGuiInputTextFlags_CallbackCompletion) {
+    typing.entered = Entered::kTab;
+  } else if (data->EventFlag == ImGuiInputTextFlags_CallbackHistory) {
+    typing.entered = data->EventKey == ImGuiKey_UpArrow ? Entered::kUp : Entered::kDown;
+  } else if (typing.prompt.replacement) {
+    data->DeleteChars(0, data->BufTextLen);
+    data->InsertChars(0, typing.prompt.replacement->c_str());
+    data->CursorPos = data->BufTextLen;
+    data->ClearSelection();
+    typing.prompt.replacement.reset();
+  }
+  return 0;
+}
+
+/// The line, which has the keyboard for as long as it is there.
+Entered typeLine(Prompt& prompt, const char* hint) {
+  Typing typing{prompt};
+  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) return Entered::kEscape;
+  if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-1);
+  const std::string before = prompt.text.data();
+  constexpr ImGuiInputTextFlags kFlags =
+      ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackAlways |
+      ImGuiInputTextFlags_CallbackCompletion | ImGuiInputTextFlags_CallbackHistory;
+  if (ImGui::InputTextWithHint("##text", hint, prompt.text.data(), prompt.text.size(), kFlags, takeEvent,
+                               &typing))
+    typing.entered = Entered::kEnter;
+  if (before != prompt.text.data()) {
+    prompt.chosen = 0;
+    prompt.wrong.clear();
+  }
+  return typing.entered;
+}
+
+void moveChosen(Prompt& prompt, Entered entered, std::size_t count) {
+  if (count == 0) return;
+  prompt.chosen = std::min(prompt.chosen, count - 1);
+  if (entered == Entered::kUp) prompt.chosen = (prompt.chosen + count - 1) % count;
+  if (entered == Entered::kDown) prompt.chosen = (prompt.chosen + 1) % count;
+  prompt.follow_chosen = entered == Entered::kUp || entered == Entered::kDown;
+}
+
+/// A row of the list; true where it is clicked.
+bool row(Prompt& prompt, std::size_t k, const std::string& text) {
+  ImGui::PushID(static_cast<int>(k));
+  const bool clicked = ImGui::Selectable(text.c_str(), k == prompt.chosen);
+  if (k == prompt.chosen && prompt.follow_chosen) ImGui::SetScrollHereY();
+  ImGui::PopID();
+  if (clicked) prompt.chosen = k;
+  return clicked;
+}
+
+void below(const Prompt& prompt, const std::string& help) {
+  if (prompt.wrong.empty()) return dimmed(help);
+  ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 0.6f, 0.5f, 1));
+  wrapped(prompt.wrong);
+  ImGui::PopStyleColor();
+}
+
+// Actions.
+
+/// Performs the action, or says what is wrong with its argument, or asks for it in the line.
+void enterAction(Viewer& viewer, const Action& action, const std::string& argument) {
+  Prompt& prompt = viewer.ui().prompt;
+  if (argument.empty() && action.needsArgument()) {
+    prompt.replacement = std::string(action.key) + " ";
+    return;
+  }
+  prompt.wrong = checkArgument(action, argument);
+  if (!prompt.wrong.empty()) {
+    prompt.replacement = prompt.text.data();
+    return;
+  }
+  prompt.close();
+  viewer.perform(action.key, argument);
+}
+
+std::string nameOf(const Action& action) {
+  return std::string(action.key) + (action.argument.empty() ? "" : " " + std::string(action.argument));
+}
+
+void actionRow(const Action& action, float width) {
+  const float size = ImGui::GetFontSize();
+  const std::string shortcut(action.shortcut.text);
+  if (width > kHelpBeside * size) {
+    ImGui::SameLine(std::max(kHelpColumn * size, ImGui::CalcTextSize(nameOf(action).c_str()).x + size));
+    ImGui::TextDisabled("%s", std::string(action.help).c_str());
+  }
+  if (shortcut.empty()) return;
+  const float at = width - ImGui::CalcTextSize(shortcut.c_str()).x;
+  // Over a help text that is too long.
+  const ImVec2 corner(ImGui::GetWindowPos().x + at - size / 2, ImGui::GetItemRectMin().y);
+  ImGui::GetWindowDrawList()->AddRectFilled(corner, {corner.x + width, ImGui::GetItemRectMax().y},
+                                            ImGui::GetColorU32(ImGuiCol_PopupBg));
+  ImGui::SameLine(at);
+  ImGui::TextUnformatted(shortcut.c_str());
+}
+
+void actionsPrompt(Viewer& viewer, float height) {
+  Prompt& prompt = viewer.ui().prompt;
+  const Entered entered = typeLine(prompt, "What to do");
+  if (entered == Entered::kEscape) return prompt.close();
+  const std::string text = prompt.text.data();
+  const TypedAction typed = typedAction(text);
+  const std::vector<const Action*> found =
+      typed.action ? std::vector<const Action*>{typed.action} : matchingActions(text);
+  moveChosen(prompt, entered, found.size());
+  std::optional<std::size_t> wanted;
+  if (entered == Entered::kEnter && !found.empty()) wanted = prompt.chosen;
+  if (entered == Entered::kTab && !found.empty())
+    prompt.replacement = std::string(found[prompt.chosen]->key) + " ";
+  ImGui::BeginChild("rows", {0, height});
+  const float width = ImGui::GetContentRegionMax().x;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (row(prompt, k, nameOf(*found[k]))) wanted = k;
+    actionRow(*found[k], width);
+  }
+  ImGui::EndChild();
+  const Action* chosen = found.empty() ? nullptr : found[prompt.chosen];
+  if (prompt.wrong.empty() && typed.action && !typed.argument.empty())
+    prompt.wrong = checkArgument(*typed.action, typed.argument);
+  below(prompt, chosen ? std::string(chosen->help) : "No action has this in its name or its description");
+  if (wanted) enterAction(viewer, *found[*wanted], typed.argument);
+}
+
+// Scenes.
+
+/// A folder that cannot be read is said in the prompt.
+template <class Attempt>
+void attempt(Prompt& prompt, const Attempt& what) {
+  try {
+    what();
+  } catch (const Error& error) {
+    prompt.wrong = error.fullText();
+  }
+}
+
+void enterScene(Viewer& viewer, const FileList::Entry& entry) {
+  Prompt& prompt = viewer.ui().prompt;
+  const std::filesystem::path path = prompt.files.pathOf(entry);
+  if (entry.folder) {
+    prompt.files.open(path);
+    prompt.replacement = "";
+    prompt.chosen = 0;
+    return;
+  }
+  prompt.close();
+  viewer.memory().keepSetting("folder", prompt.files.folder().string());
+  viewer.perform("open", path.string());
+}
+
+void scenesPrompt(Viewer& viewer, float height) {
+  Prompt& prompt = viewer.ui().prompt;
+  dimmed(prompt.files.folder().string());
+  const Entered entered = typeLine(prompt, "Name of a scene or folder, or a path");
+  if (entered == Entered::kEscape) return prompt.close();
+  std::string text = prompt.text.data();
+  attempt(prompt, [&] {
+    const std::string left = prompt.files.follow(text);
+    if (left == text) return;
+    prompt.replacement = text = left;
+    prompt.chosen = 0;
+  });
+  if (entered == Entered::kTab) prompt.replacement = prompt.files.completed(text);
+  const std::vector<FileList::Entry> found = prompt.files.matching(text);
+  moveChosen(prompt, entered, found.size());
+  std::optional<std::size_t> wanted;
+  if (entered == Entered::kEnter) {
+    prompt.replacement = text;
+    if (found.empty()) {
+      prompt.wrong = "There is no scene or folder '" + text + "' here";
+    } else {
+      wanted = prompt.chosen;
+    }
+  }
+  ImGui::BeginChild("rows", {0, height});
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (row(prompt, k, found[k].name + (found[k].folder ? "/" : ""))) wanted = k;
+  }
+  if (found.empty()) ImGui::TextDisabled("nothing");
+  ImGui::EndChild();
+  below(prompt, "Enter opens, Tab completes, Esc closes");
+  if (wanted) attempt(prompt, [&] { enterScene(viewer, found[*wanted]); });
+}
+
+}  // namespace
+
+void buildPrompt(Viewer& viewer, float middle) {
+  Prompt& prompt = viewer.ui().prompt;
+  if (!prompt.open()) return;
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float size = ImGui::GetFontSize();
+  const float width = std::min(2 * middle - size, kWidth * size);
+  // The line, the path or nothing above it, two lines of help below.
+  const float others = 6 * ImGui::GetFrameHeightWithSpacing() + 2 * style.WindowPadding.y;
+  const float height =
+      std::clamp(ImGui::GetIO().DisplaySize.y - others, 3 * ImGui::GetTextLineHeightWithSpacing(),
+                 kRows * ImGui::GetTextLineHeightWithSpacing());
+  ImGui::SetNextWindowPos({middle, 1.5f * size}, ImGuiCond_Always, {0.5f, 0});
+  ImGui::SetNextWindowSize({width, 0});
+  ImGui::SetNextWindowBgAlpha(0.97f);
+  ImGui::Begin("prompt", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+  prompt.kind == PromptKind::kActions ? actionsPrompt(viewer, height) : scenesPrompt(viewer, height);
+  ImGui::End();
+}
+
+}  // namespace unshot
