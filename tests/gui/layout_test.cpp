@@ -76,6 +76,10 @@ class Layout : public testing::TestWithParam<Window> {
     std::vector<State> out = {
         {"at rest", {}, {}},
         {"help", {{"help", "on"}}, {{"help", "off"}}},
+        {"all actions", {{"actions", ""}}, {off}},
+        {"an action", {{"actions", "wipe 2"}}, {off}},
+        {"no action", {{"actions", "zebra"}}, {off}},
+        {"scenes", {{"browse", std::string(UNSHOT_SOURCE_DIR) + "/tests/data"}}, {off}},
         {"picked", {{"pick", "0.45,0.6"}}, {}},
         {"probes",
          {{"pin-probe", ""}, {"pick", "0.5,0.8"}, {"pin-probe", ""}},

@@ -209,10 +209,9 @@ TEST_F(PromptedViewer, ASceneIsOpenedByItsTypedPath) {
   live_->key('O', true);
   frames();
   EXPECT_EQ(prompt().files.folder(), std::filesystem::canonical(UNSHOT_SOURCE_DIR "/assets"));
-  type("../");
+  type("../ass");
   EXPECT_EQ(prompt().files.folder(), std::filesystem::canonical(UNSHOT_SOURCE_DIR));
-  EXPECT_EQ(text(), "");
-  type("ass");
+  EXPECT_EQ(text(), "ass");
   press(ImGuiKey_Tab);
   EXPECT_EQ(prompt().files.folder(), std::filesystem::canonical(UNSHOT_SOURCE_DIR "/assets"));
   type("nothing");

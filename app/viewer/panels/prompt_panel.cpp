@@ -1,6 +1,7 @@
 #include "viewer/panels/prompt_panel.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "viewer/actions/action_search.h"
 #include "viewer/panels/widgets.h"
@@ -21,18 +22,44 @@ struct Typing {
   Entered entered = Entered::kNothing;
 };
 
+/// A folder that cannot be read is said in the prompt.
+template <class Attempt>
+void attempt(Prompt& prompt, const Attempt& what) {
+  try {
+    what();
+  } catch (const Error& error) {
+    prompt.wrong = error.fullText();
+  }
+}
+
+void replaceText(ImGuiInputTextCallbackData& data, const std::string& text) {
+  data.DeleteChars(0, data.BufTextLen);
+  data.InsertChars(0, text.c_str());
+  data.CursorPos = data.BufTextLen;
+  data.ClearSelection();
+}
+
+/// At once, so that nothing that is typed meanwhile is lost.
+void followPath(ImGuiInputTextCallbackData& data, Prompt& prompt) {
+  attempt(prompt, [&] {
+    const std::string text(data.Buf, static_cast<std::size_t>(data.BufTextLen));
+    const std::string left = prompt.files.follow(text);
+    if (left == text) return;
+    replaceText(data, left);
+    prompt.chosen = 0;
+  });
+}
+
 int takeEvent(ImGuiInputTextCallbackData* data) {
   Typing& typing = *static_cast<Typing*>(data->UserData);
   if (data->EventFlag == ImGuiInputTextFlags_CallbackCompletion) {
     typing.entered = Entered::kTab;
   } else if (data->EventFlag == ImGuiInputTextFlags_CallbackHistory) {
     typing.entered = data->EventKey == ImGuiKey_UpArrow ? Entered::kUp : Entered::kDown;
-  } else if (typing.prompt.replacement) {
-    data->DeleteChars(0, data->BufTextLen);
-    data->InsertChars(0, typing.prompt.replacement->c_str());
-    data->CursorPos = data->BufTextLen;
-    data->ClearSelection();
-    typing.prompt.replacement.reset();
+  } else {
+    if (typing.prompt.replacement)
+      replaceText(*data, *std::exchange(typing.prompt.replacement, std::nullopt));
+    if (typing.prompt.kind == PromptKind::kScenes) followPath(*data, typing.prompt);
   }
   return 0;
 }
@@ -104,21 +131,24 @@ std::string nameOf(const Action& action) {
   return std::string(action.key) + (action.argument.empty() ? "" : " " + std::string(action.argument));
 }
 
-void actionRow(const Action& action, float width) {
-  const float size = ImGui::GetFontSize();
+/// Name, help where there is room for it, key; true where it is clicked.
+bool actionRow(Prompt& prompt, std::size_t k, const Action& action) {
+  const float size = ImGui::GetFontSize(), width = ImGui::GetContentRegionMax().x;
   const std::string shortcut(action.shortcut.text);
-  if (width > kHelpBeside * size) {
-    ImGui::SameLine(std::max(kHelpColumn * size, ImGui::CalcTextSize(nameOf(action).c_str()).x + size));
-    ImGui::TextDisabled("%s", std::string(action.help).c_str());
+  const float keys = shortcut.empty() ? 0 : ImGui::CalcTextSize(shortcut.c_str()).x;
+  const float room = width - keys - (shortcut.empty() ? 0 : size);
+  const std::string name = shortened(nameOf(action), room);
+  const bool clicked = row(prompt, k, name);
+  const float help = std::max(kHelpColumn * size, ImGui::CalcTextSize(name.c_str()).x + size);
+  if (width > kHelpBeside * size && room > help + 4 * size) {
+    ImGui::SameLine(help);
+    ImGui::TextDisabled("%s", shortened(std::string(action.help), room - help).c_str());
   }
-  if (shortcut.empty()) return;
-  const float at = width - ImGui::CalcTextSize(shortcut.c_str()).x;
-  // Over a help text that is too long.
-  const ImVec2 corner(ImGui::GetWindowPos().x + at - size / 2, ImGui::GetItemRectMin().y);
-  ImGui::GetWindowDrawList()->AddRectFilled(corner, {corner.x + width, ImGui::GetItemRectMax().y},
-                                            ImGui::GetColorU32(ImGuiCol_PopupBg));
-  ImGui::SameLine(at);
-  ImGui::TextUnformatted(shortcut.c_str());
+  if (!shortcut.empty()) {
+    ImGui::SameLine(width - keys);
+    ImGui::TextUnformatted(shortcut.c_str());
+  }
+  return clicked;
 }
 
 void actionsPrompt(Viewer& viewer, float height) {
@@ -135,10 +165,8 @@ void actionsPrompt(Viewer& viewer, float height) {
   if (entered == Entered::kTab && !found.empty())
     prompt.replacement = std::string(found[prompt.chosen]->key) + " ";
   ImGui::BeginChild("rows", {0, height});
-  const float width = ImGui::GetContentRegionMax().x;
   for (std::size_t k = 0; k < found.size(); ++k) {
-    if (row(prompt, k, nameOf(*found[k]))) wanted = k;
-    actionRow(*found[k], width);
+    if (actionRow(prompt, k, *found[k])) wanted = k;
   }
   ImGui::EndChild();
   const Action* chosen = found.empty() ? nullptr : found[prompt.chosen];
@@ -150,14 +178,15 @@ void actionsPrompt(Viewer& viewer, float height) {
 
 // Scenes.
 
-/// A folder that cannot be read is said in the prompt.
-template <class Attempt>
-void attempt(Prompt& prompt, const Attempt& what) {
-  try {
-    what();
-  } catch (const Error& error) {
-    prompt.wrong = error.fullText();
+/// As many of the last folders as there is room for.
+std::string endOf(const std::filesystem::path& path, float width) {
+  std::string text = path.string();
+  while (ImGui::CalcTextSize(text.c_str()).x > width) {
+    const std::size_t slash = text.find('/', text.find('/') + 1);
+    if (slash == std::string::npos) return shortened(text, width);
+    text = "\u2026" + text.substr(slash);
   }
+  return text;
 }
 
 void enterScene(Viewer& viewer, const FileList::Entry& entry) {
@@ -165,6 +194,7 @@ void enterScene(Viewer& viewer, const FileList::Entry& entry) {
   const std::filesystem::path path = prompt.files.pathOf(entry);
   if (entry.folder) {
     prompt.files.open(path);
+    prompt.wrong.clear();
     prompt.replacement = "";
     prompt.chosen = 0;
     return;
@@ -176,16 +206,10 @@ void enterScene(Viewer& viewer, const FileList::Entry& entry) {
 
 void scenesPrompt(Viewer& viewer, float height) {
   Prompt& prompt = viewer.ui().prompt;
-  dimmed(prompt.files.folder().string());
+  ImGui::TextDisabled("%s", endOf(prompt.files.folder(), ImGui::GetContentRegionMax().x).c_str());
   const Entered entered = typeLine(prompt, "Name of a scene or folder, or a path");
   if (entered == Entered::kEscape) return prompt.close();
-  std::string text = prompt.text.data();
-  attempt(prompt, [&] {
-    const std::string left = prompt.files.follow(text);
-    if (left == text) return;
-    prompt.replacement = text = left;
-    prompt.chosen = 0;
-  });
+  const std::string text = prompt.text.data();
   if (entered == Entered::kTab) prompt.replacement = prompt.files.completed(text);
   const std::vector<FileList::Entry> found = prompt.files.matching(text);
   moveChosen(prompt, entered, found.size());
@@ -200,7 +224,8 @@ void scenesPrompt(Viewer& viewer, float height) {
   }
   ImGui::BeginChild("rows", {0, height});
   for (std::size_t k = 0; k < found.size(); ++k) {
-    if (row(prompt, k, found[k].name + (found[k].folder ? "/" : ""))) wanted = k;
+    const std::string name = found[k].name + (found[k].folder ? "/" : "");
+    if (row(prompt, k, shortened(name, ImGui::GetContentRegionMax().x))) wanted = k;
   }
   if (found.empty()) ImGui::TextDisabled("nothing");
   ImGui::EndChild();
