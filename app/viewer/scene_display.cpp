@@ -130,14 +130,14 @@ bool SceneDisplay::draw(const Wanted& wanted, double seconds, double deadline) {
 }
 
 void SceneDisplay::begin(const Wanted& wanted) {
-  making_ = Making{wanted};
   drawn_anew_ = !sampled(wanted);
-  if (!drawn_anew_) return;
-  sampled_.reset();
   const int width = wanted.width * wanted.samples, height = wanted.height * wanted.samples;
-  if (samples_.width() == width && samples_.height() == height) return;
-  samples_ = LinearTarget();  // the old one goes first: both at once may not fit
-  samples_ = LinearTarget(context_, width, height);
+  if (drawn_anew_) sampled_.reset();
+  if (drawn_anew_ && (samples_.width() != width || samples_.height() != height)) {
+    samples_ = LinearTarget();  // the old one goes first: both at once may not fit
+    samples_ = LinearTarget(context_, width, height);
+  }
+  making_ = Making{wanted};  // not where there was no memory for it
 }
 
 /// Sends what the snapshot still has to send until it is done or time is up. Returns whether it is done.

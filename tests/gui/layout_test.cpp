@@ -139,8 +139,10 @@ class Layout : public testing::TestWithParam<Window> {
   }
 
   const TempFolder folder_;
-  mutable LiveViewer viewer_{
-      {std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj", options(), "", {}, 640, 360}};
+  mutable LiveViewer viewer_{{.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj",
+                              .solve = options(),
+                              .width = 640,
+                              .height = 360}};
 
  private:
   static SolveOptions options() {

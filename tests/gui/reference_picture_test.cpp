@@ -49,8 +49,10 @@ class ReferencePictures : public testing::Test {
   }
 
   const TempFolder folder_;
-  LiveViewer viewer_{
-      {std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj", options(), "", {}, kWidth, kHeight}};
+  LiveViewer viewer_{{.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj",
+                      .solve = options(),
+                      .width = kWidth,
+                      .height = kHeight}};
   std::string all_, direct_;
 
  private:

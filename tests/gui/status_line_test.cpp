@@ -43,7 +43,7 @@ void addParts(const ImGuiWindow& window, std::set<int>& known) {
 }
 
 TEST(StatusLine, LiesAtTheBottomOfTheSceneAndGoesWithThePanel) {
-  LiveViewer viewer({kBox, small(), "", {}, 1280, 720});
+  LiveViewer viewer({.scene = kBox, .solve = small(), .width = 1280, .height = 720});
   ASSERT_TRUE(viewer.untilPhase(SessionPhase::kConverged));
   viewer.draw();
   ASSERT_TRUE(status());
@@ -62,7 +62,7 @@ TEST(StatusLine, LiesAtTheBottomOfTheSceneAndGoesWithThePanel) {
 }
 
 TEST(StatusLine, NothingMovesWhileFiguresChange) {
-  LiveViewer viewer({kBox, small(), "", {}, 1280, 720});
+  LiveViewer viewer({.scene = kBox, .solve = small(), .width = 1280, .height = 720});
   std::set<int> seen;
   int frames = 0;
   ASSERT_TRUE(viewer.until([&] {
@@ -80,7 +80,7 @@ TEST(StatusLine, NothingMovesWhileFiguresChange) {
 }
 
 TEST(StatusLine, LeavesTheLastOutWhereItIsNarrow) {
-  LiveViewer viewer({kBox, small(), "", {}, 640, 360});
+  LiveViewer viewer({.scene = kBox, .solve = small(), .width = 640, .height = 360});
   ASSERT_TRUE(viewer.untilPhase(SessionPhase::kConverged));
   viewer.draw();
   ASSERT_TRUE(status());

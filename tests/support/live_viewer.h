@@ -22,9 +22,9 @@ namespace unshot::testing_support {
 class LiveViewer {
  public:
   struct Options {
-    std::filesystem::path scene;
-    SolveOptions solve;
-    std::string script;
+    std::filesystem::path scene = {};
+    SolveOptions solve = {};
+    std::string script = {};
     int width = 320, height = 240;
     std::filesystem::path memory = {};
   };
