@@ -38,7 +38,7 @@ TEST(ActionSearch, PutsNamesBeforeDescriptions) {
   EXPECT_EQ(keys[0], "camera");
   EXPECT_EQ(keys[1], "camera-preset");
   EXPECT_EQ(keys[2], "copy-camera");
-  EXPECT_THAT(keysOf(matchingActions("angle degrees")), IsEmpty());
+  EXPECT_THAT(keysOf(matchingActions("angle zebra")), IsEmpty());
   EXPECT_THAT(keysOf(matchingActions("170 angle")), ElementsAre("fov"));
 }
 

@@ -25,8 +25,8 @@ class LiveViewer {
     std::filesystem::path scene = {};
     SolveOptions solve = {};
     std::string script = {};
-    int width = 320, height = 240;
     std::filesystem::path memory = {};
+    int width = 320, height = 240;
   };
 
   explicit LiveViewer(const Options& options)

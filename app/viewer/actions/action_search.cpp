@@ -29,25 +29,26 @@ TypedAction typedAction(std::string_view text) {
 
 std::vector<const Action*> matchingActions(std::string_view text) {
   const std::string wanted = lowered(trimmed(text));
-  std::array<std::vector<const Action*>, 3> found;
+  std::array<std::vector<const Action*>, 4> found;
   for (const ActionGroup& group : actionGroups()) {
     for (const Action& action : group.actions) {
       const std::string key(action.key);
       const std::size_t at = key.find(wanted);
       const std::string all =
           key + " " + lowered(action.argument) + " " + lowered(action.help) + " " + lowered(group.title);
-      if (at == 0) {
+      if (key == wanted) {
         found[0].push_back(&action);
-      } else if (at != std::string::npos) {
+      } else if (at == 0) {
         found[1].push_back(&action);
-      } else if (hasAllWords(all, wanted)) {
+      } else if (at != std::string::npos) {
         found[2].push_back(&action);
+      } else if (hasAllWords(all, wanted)) {
+        found[3].push_back(&action);
       }
     }
   }
-  std::vector<const Action*> rows = found[0];
-  rows.insert(rows.end(), found[1].begin(), found[1].end());
-  rows.insert(rows.end(), found[2].begin(), found[2].end());
+  std::vector<const Action*> rows;
+  for (const auto& some : found) rows.insert(rows.end(), some.begin(), some.end());
   // actionGroups() and actions() hold the same rows; what is found is of the latter.
   for (const Action*& row : rows) row = &findAction(row->key);
   return rows;

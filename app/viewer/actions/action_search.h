@@ -17,8 +17,8 @@ struct TypedAction {
 TypedAction typedAction(std::string_view text);
 
 /// The actions that have all words of the text in their name, argument, help or the title of their group:
-/// first those whose name begins with the text, then those that have it there, then the others, each in the
-/// order of the table.
+/// first the one of this name, then those whose name begins with the text, those that have it there, and the
+/// others, each in the order of the table.
 std::vector<const Action*> matchingActions(std::string_view text);
 
 }  // namespace unshot
