@@ -3,7 +3,8 @@
 // are compared here.
 #include "colour.glsl"
 #include "difference.glsl"
-#include "tone.glsl"
+
+vec3 toneMap(vec3 c);  // of one of the tone curves (tone_*.frag)
 
 uniform sampler2D ours;       // as displayed, as large as the picture
 uniform sampler2D reference;  // linear, fitted by its height
@@ -11,7 +12,7 @@ uniform vec2 size;            // of the picture [px]
 uniform float across;         // widths of the reference in that of the picture
 uniform vec3 background;      // of ours, as displayed
 uniform float exposure;
-uniform int tone_curve;       // in core/base/tone.cpp; -1: the reference holds values of a display
+uniform bool light;           // in the reference; else it holds values of a display
 uniform float wipe;           // column from which on the reference is shown [px]
 uniform bool difference;
 
@@ -32,7 +33,7 @@ void main() {
   vec3 theirs = max(texture(reference, at).rgb, 0.0);
   // Nothing in either, whose two ways to show it do not count.
   bool nothing = theirs == vec3(0.0) && all(lessThan(abs(mine - background), vec3(0.002)));
-  theirs = tone_curve < 0 ? min(theirs, 1.0) : toneMap(tone_curve, min(theirs * exposure, vec3(1e4)));
+  theirs = light ? toneMap(min(theirs * exposure, vec3(1e4))) : min(theirs, 1.0);
   vec3 shown = gl_FragCoord.x < wipe ? mine : srgbFromLinear(theirs);
   if (difference) shown = srgbFromLinear(differenceColour(luminance(linearFromSrgb(mine) - theirs)));
   if (difference && nothing) shown = vec3(0.1);

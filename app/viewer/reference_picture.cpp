@@ -60,7 +60,6 @@ ReferencePicture::ReferencePicture(gl::Context& context, const std::filesystem::
     : context_(context),
       name_(file.filename().string()),
       light_(holdsLight(file)),
-      program_(context, {"frame.vert", "reference_picture.frag"}),
       no_attributes_(context),
       reference_(context),
       ours_{gl::Texture(context), gl::Framebuffer(context)},
@@ -122,6 +121,11 @@ void ReferencePicture::compose(GLuint framebuffer, const Look& look, double wipe
   fn.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   setPassState(fn, false);
   fn.Viewport(0, 0, ours_.width, ours_.height);
+  if (program_tone_ != look.view.tone) {
+    program_ =
+        gl::Program(context_, {"frame.vert", "reference_picture.frag", toneCurve(look.view.tone).shader});
+    program_tone_ = look.view.tone;
+  }
   program_.use();
   const std::array<GLuint, 2> textures = {ours_.texture.id(), reference_.id()};
   for (GLint unit = 0; unit < 2; ++unit) {
@@ -136,7 +140,7 @@ void ReferencePicture::compose(GLuint framebuffer, const Look& look, double wipe
   const auto background = static_cast<GLfloat>(srgbFromLinear(kBackground));
   fn.Uniform3f(program_.uniform("background"), background, background, background);
   fn.Uniform1f(program_.uniform("exposure"), finiteValue(scaleOf(look)));
-  fn.Uniform1i(program_.uniform("tone_curve"), light_ ? toneCurveNumber(look.view.tone) : -1);
+  fn.Uniform1i(program_.uniform("light"), light_);
   fn.Uniform1f(program_.uniform("wipe"), static_cast<GLfloat>(wipe * ours_.width));
   fn.Uniform1i(program_.uniform("difference"), difference);
   fn.BindVertexArray(no_attributes_.id());

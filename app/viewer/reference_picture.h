@@ -57,6 +57,7 @@ class ReferencePicture {
   bool light_;  // the file holds linear light, to be exposed
   double aspect_;
   gl::Program program_;
+  std::string program_tone_;  // the tone curve in it
   gl::VertexArray no_attributes_;
   gl::Texture reference_;
   Picture ours_, theirs_;

@@ -61,21 +61,26 @@ glm::dvec3 logarithmic(const glm::dvec3& exposed) {
 std::span<const ToneCurve> toneCurves() {
   static constexpr std::array<ToneCurve, 5> table = {{
       {{kUsualTone, "Soft shoulder", "as it is up to 0.6 of white, above it a shoulder that keeps the hue"},
-       softShoulder},
-      {{"clamp", "Linear, cut at white", "as it is; what is brighter than white is white"}, cutAtWhite},
+       softShoulder,
+       "tone_shoulder.frag"},
+      {{"clamp", "Linear, cut at white", "as it is; what is brighter than white is white"},
+       cutAtWhite,
+       "tone_clamp.frag"},
       {{"photographic", "Photographic",
         "after Reinhard: darks twice as bright, ever less from there to four times white"},
-       photographic},
-      {{"filmic", "Filmic", "the curve of film, with a toe and a shoulder: more contrast (ACES)"}, filmic},
+       photographic,
+       "tone_photographic.frag"},
+      {{"filmic", "Filmic", "the curve of film, with a toe and a shoulder: more contrast (ACES)"},
+       filmic,
+       "tone_filmic.frag"},
       {{"logarithmic", "Logarithmic", "three decades below white, in equal steps: what is in the dark"},
-       logarithmic},
+       logarithmic,
+       "tone_logarithmic.frag"},
   }};
   return table;
 }
 
-int toneCurveNumber(std::string_view key) {
-  return static_cast<int>(&findChoice(toneCurves(), key, "tone curve") - toneCurves().data());
-}
+const ToneCurve& toneCurve(std::string_view key) { return findChoice(toneCurves(), key, "tone curve"); }
 
 glm::dvec3 toneMap(const glm::dvec3& exposed) { return softShoulder(exposed); }
 

@@ -17,8 +17,8 @@ struct GpuVertex {
   std::uint32_t side;
 };
 
-// Which side of its surface is seen, as shaders/display.vert has it: of a surface without a lit side, the one
-// that faces the eye.
+// Which side of its surface is seen, as shaders/display_sides.vert has it: of a surface without a lit side,
+// the one that faces the eye.
 constexpr float kFrontSide = 0, kBackSide = 1, kEitherSide = 2;
 
 glm::vec4 finiteTexel(const glm::dvec3& v) {

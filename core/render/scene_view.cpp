@@ -33,8 +33,24 @@ SceneView::SceneView(gl::Context& context)
       buffers_(context),
       display_program_(context, {"display.vert", "display.frag"}),
       by_pixel_program_(context, {"display_by_pixel.vert", "display_by_pixel.frag"}),
-      resolve_program_(context, {"frame.vert", "resolve.frag"}),
       no_attributes_(context) {}
+
+const gl::Program& SceneView::vertexProgram(const DisplayMode& mode) {
+  if (mode.quantity != Quantity::kSides && mode.quantity != Quantity::kNormals) return display_program_;
+  if (!sides_program_) sides_program_ = gl::Program(context_, {"display_sides.vert", "display.frag"});
+  return sides_program_;
+}
+
+const gl::Program& SceneView::resolveProgram(const DisplayMode& mode, const std::string& tone) {
+  const std::string key = mode.false_colour ? "false colours" : tone;
+  const auto made = resolve_programs_.find(key);
+  if (made != resolve_programs_.end()) return made->second;
+  gl::Program program =
+      mode.false_colour ? gl::Program(context_, {"frame.vert", "resolve.frag", "resolve_false_colour.frag"})
+                        : gl::Program(context_, {"frame.vert", "resolve.frag", "resolve_toned.frag",
+                                                 toneCurve(tone).shader});
+  return resolve_programs_.emplace(key, std::move(program)).first->second;
+}
 
 void SceneView::setSnapshot(const Snapshot& snapshot) {
   // It is here for as long as the upload takes.
@@ -115,7 +131,7 @@ DrawnPieces SceneView::drawPieces(const Camera& camera, double aspect, const Fra
   };
   if (drawn.end < triangles) {
     const bool by_pixel = mode.per_element || buffers_.hasField(mode.quantity);
-    const gl::Program& program = by_pixel ? by_pixel_program_ : display_program_;
+    const gl::Program& program = by_pixel ? by_pixel_program_ : vertexProgram(mode);
     useDisplay(program, matrix, camera, options, element_light);
     fn.Uniform1i(program.uniform("edges"), 0);
     const TrianglesInView seen =
@@ -150,8 +166,8 @@ void SceneView::drawUnlit(const glm::mat4& matrix, const Camera& camera, const V
                           const gl::Texture& element_light, std::size_t first, std::size_t count) {
   if (count == 0) return;
   const gl::Functions& fn = context_.functions();
-  const gl::Program& program =
-      buffers_.hasField(displayMode(options.display).quantity) ? by_pixel_program_ : display_program_;
+  const DisplayMode& mode = displayMode(options.display);
+  const gl::Program& program = buffers_.hasField(mode.quantity) ? by_pixel_program_ : vertexProgram(mode);
   useDisplay(program, matrix, camera, options, element_light);
   fn.Uniform1i(program.uniform("edges"), 0);
   fn.Uniform1i(program.uniform("per_element"), 0);
@@ -178,17 +194,16 @@ double SceneView::exposureFor(const Camera& camera, double aspect, const ViewOpt
   return meter(small.read(), options);
 }
 
-void SceneView::useFalseColour(const gl::Program& program, const FalseColour* how, double scale) const {
+void SceneView::useFalseColour(const gl::Program& program, const FalseColour& how, double scale) const {
   const gl::Functions& fn = context_.functions();
-  fn.Uniform1i(program.uniform("false_colour"), how == nullptr ? 0 : how->logarithmic ? 2 : 1);
-  if (!how) return;
+  fn.Uniform1i(program.uniform("logarithmic"), how.logarithmic);
   fn.Uniform3fv(program.uniform("ramp"), static_cast<GLsizei>(kFalseColourRamp.size()),
                 glm::value_ptr(kFalseColourRamp[0]));
   const double top = 1 / scale;
   std::vector<float> places;
-  if (how->isolines) {
-    for (const double value : isolines(top, *how))
-      places.push_back(static_cast<float>(falseColourPlace(value, top, how->logarithmic)));
+  if (how.isolines) {
+    for (const double value : isolines(top, how))
+      places.push_back(static_cast<float>(falseColourPlace(value, top, how.logarithmic)));
   }
   places.resize(std::min(places.size(), kMostIsolines));
   fn.Uniform1i(program.uniform("isoline_count"), static_cast<GLint>(places.size()));
@@ -202,7 +217,7 @@ void SceneView::resolve(const LinearTarget& samples, double automatic_exposure, 
   const DisplayMode& mode = displayMode(options.display);
   const double stops = mode.exposed ? std::clamp(options.exposure_ev, -200.0, 200.0) : 0;
   const double scale = automatic_exposure * std::exp2(stops);
-  const gl::Program& program = resolve_program_;
+  const gl::Program& program = resolveProgram(mode, options.tone);
   setPassState(fn, false);
   fn.Viewport(viewport.x, viewport.y, viewport.width, viewport.height);
   program.use();
@@ -210,9 +225,8 @@ void SceneView::resolve(const LinearTarget& samples, double automatic_exposure, 
   fn.Uniform1i(program.uniform("factor"), options.supersampling);
   fn.Uniform2i(program.uniform("origin"), viewport.x, viewport.y - first_row);
   fn.Uniform1f(program.uniform("exposure"), finiteValue(scale));
-  fn.Uniform1i(program.uniform("tone_curve"), mode.tone_mapped ? toneCurveNumber(options.tone) : -1);
-  const FalseColour scale_of_colours = falseColourOf(options, mode);
-  useFalseColour(program, mode.false_colour ? &scale_of_colours : nullptr, scale);
+  fn.Uniform1i(program.uniform("tone_mapped"), mode.tone_mapped);
+  if (mode.false_colour) useFalseColour(program, falseColourOf(options, mode), scale);
   fn.Uniform3f(program.uniform("background"), kBackground, kBackground, kBackground);
   const bool shows_light = mode.quantity == Quantity::kRadiosity || mode.quantity == Quantity::kEmission;
   const glm::vec3 sky = shows_light ? glm::vec3(buffers_.sky()) : glm::vec3(0.0f);

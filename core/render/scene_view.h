@@ -6,6 +6,8 @@
 // house. Surfaces without elements on either side are drawn black.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -122,12 +124,18 @@ class SceneView {
   /// Triangles of surfaces without a lit side.
   void drawUnlit(const glm::mat4& matrix, const Camera& camera, const ViewOptions& options,
                  const gl::Texture& element_light, std::size_t first, std::size_t count);
-  void useFalseColour(const gl::Program& program, const FalseColour* how, double scale) const;
+  void useFalseColour(const gl::Program& program, const FalseColour& how, double scale) const;
   const LinearTarget& target(LinearTarget& kept, int width, int height);
 
   gl::Context& context_;
   SceneBuffers buffers_;
-  gl::Program display_program_, by_pixel_program_, resolve_program_;
+  /// For the triangles of a mode that is worked out at vertices.
+  const gl::Program& vertexProgram(const DisplayMode& mode);
+  const gl::Program& resolveProgram(const DisplayMode& mode, const std::string& tone);
+
+  gl::Program display_program_, by_pixel_program_, sides_program_;
+  std::map<std::string, gl::Program, std::less<>>
+      resolve_programs_;  // by tone curve or "false colours", as they were wanted
   gl::VertexArray no_attributes_;
   LinearTarget samples_, small_;
 };

@@ -81,6 +81,7 @@ class Layout : public testing::TestWithParam<Window> {
         {"no action", {{"actions", "zebra"}}, {off}},
         {"scenes", {{"browse", std::string(UNSHOT_SOURCE_DIR) + "/tests/data"}}, {off}},
         {"picked", {{"pick", "0.45,0.6"}}, {}},
+        {"hemicube", {{"hemicube-view", "on"}}, {{"hemicube-view", "off"}}},
         {"probes",
          {{"pin-probe", ""}, {"pick", "0.5,0.8"}, {"pin-probe", ""}},
          {{"clear-probes", ""}, {"unpick", ""}}},
@@ -101,6 +102,11 @@ class Layout : public testing::TestWithParam<Window> {
         {"a message", {{"open", "a_scene_that_is_nowhere_in_any_folder_at_all.obj"}}, {off}},
         {"race", {{"race", "jacobi"}}, {{"race", "off"}}},
     };
+    // The lecture wants more room than the smallest windows have.
+    if (GetParam().width / GetParam().scale >= 480) {
+      for (const char* page : {"matrix", "equation", "shots", "effects"})
+        out.push_back({page, {{"lecture-page", page}}, {{"lecture", "off"}}});
+    }
     for (const DisplayMode& mode : displayModes())
       out.push_back({"display " + std::string(mode.info.key),
                      {{"display", std::string(mode.info.key)}},
@@ -139,15 +145,15 @@ class Layout : public testing::TestWithParam<Window> {
   }
 
   const TempFolder folder_;
-  mutable LiveViewer viewer_{{.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj",
-                              .solve = options(),
-                              .width = 640,
-                              .height = 360}};
+  mutable LiveViewer viewer_{options()};
 
  private:
-  static SolveOptions options() {
-    SolveOptions options;
-    options.elements = 300;
+  static LiveViewer::Options options() {
+    LiveViewer::Options options;
+    options.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
+    options.solve.elements = 300;
+    options.width = 640;
+    options.height = 360;
     return options;
   }
   static ImGuiWindow* scrolled() {

@@ -49,16 +49,16 @@ class ReferencePictures : public testing::Test {
   }
 
   const TempFolder folder_;
-  LiveViewer viewer_{{.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj",
-                      .solve = options(),
-                      .width = kWidth,
-                      .height = kHeight}};
+  LiveViewer viewer_{options()};
   std::string all_, direct_;
 
  private:
-  static SolveOptions options() {
-    SolveOptions options;
-    options.elements = 500;
+  static LiveViewer::Options options() {
+    LiveViewer::Options options;
+    options.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
+    options.solve.elements = 500;
+    options.width = kWidth;
+    options.height = kHeight;
     return options;
   }
 };

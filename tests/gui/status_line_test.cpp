@@ -13,11 +13,12 @@ namespace {
 
 using testing_support::LiveViewer;
 
-const std::string kBox = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
-
-SolveOptions small() {
-  SolveOptions options;
-  options.elements = 1000;
+LiveViewer::Options box(int width, int height) {
+  LiveViewer::Options options;
+  options.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
+  options.solve.elements = 1000;
+  options.width = width;
+  options.height = height;
   return options;
 }
 
@@ -43,7 +44,7 @@ void addParts(const ImGuiWindow& window, std::set<int>& known) {
 }
 
 TEST(StatusLine, LiesAtTheBottomOfTheSceneAndGoesWithThePanel) {
-  LiveViewer viewer({.scene = kBox, .solve = small(), .width = 1280, .height = 720});
+  LiveViewer viewer(box(1280, 720));
   ASSERT_TRUE(viewer.untilPhase(SessionPhase::kConverged));
   viewer.draw();
   ASSERT_TRUE(status());
@@ -62,7 +63,7 @@ TEST(StatusLine, LiesAtTheBottomOfTheSceneAndGoesWithThePanel) {
 }
 
 TEST(StatusLine, NothingMovesWhileFiguresChange) {
-  LiveViewer viewer({.scene = kBox, .solve = small(), .width = 1280, .height = 720});
+  LiveViewer viewer(box(1280, 720));
   std::set<int> seen;
   int frames = 0;
   ASSERT_TRUE(viewer.until([&] {
@@ -80,7 +81,7 @@ TEST(StatusLine, NothingMovesWhileFiguresChange) {
 }
 
 TEST(StatusLine, LeavesTheLastOutWhereItIsNarrow) {
-  LiveViewer viewer({.scene = kBox, .solve = small(), .width = 640, .height = 360});
+  LiveViewer viewer(box(640, 360));
   ASSERT_TRUE(viewer.untilPhase(SessionPhase::kConverged));
   viewer.draw();
   ASSERT_TRUE(status());

@@ -34,8 +34,8 @@ TEST(ToneCurves, RiseFromBlackToWhite) {
 
 TEST(ToneCurves, TheUsualOneLeavesWhatIsNotBrightAlone) {
   EXPECT_EQ(toneMap({0.5, 0.2, 0.1}), glm::dvec3(0.5, 0.2, 0.1));
-  EXPECT_EQ(toneCurveNumber(kUsualTone), 0);
-  EXPECT_THROW(toneCurveNumber("none"), Error);
+  EXPECT_EQ(toneCurve(kUsualTone).map({2, 1, 0.5}), toneMap({2, 1, 0.5}));
+  EXPECT_THROW(toneCurve("none"), Error);
 }
 
 /// What a pixel of 8 bits holds.
