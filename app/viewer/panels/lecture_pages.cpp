@@ -162,8 +162,8 @@ constexpr std::array<Effect, 11> kEffects = {{
 
 /// What follows goes on in the line where it is no wider than the room that is left there.
 void goOn(float width) {
-  ImGui::SameLine();
-  if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+  const float right = ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + width;
+  if (right <= ImGui::GetWindowPos().x + ImGui::GetContentRegionMax().x) ImGui::SameLine();
 }
 
 bool buttonBeside(const char* text) {
