@@ -9,6 +9,7 @@
 #include "base/tone.h"
 #include "render/exposure.h"
 #include "render/false_colour.h"
+#include "render/patch_colours.h"
 
 namespace unshot {
 namespace {
@@ -20,19 +21,6 @@ constexpr std::size_t kMeteredStep = 3;  // the exposure is found from each thir
 
 Rgb encoded(const glm::dvec3& linear) {
   return {srgb8FromLinear(linear.x), srgb8FromLinear(linear.y), srgb8FromLinear(linear.z)};
-}
-
-double fraction(double x) { return x - std::floor(x); }
-
-/// Neighbours in number are far apart in hue.
-Rgb colourOf(std::uint32_t patch) {
-  const double hue = 6 * fraction(0.618034 * patch), light = 0.35 + 0.6 * fraction(0.3819 * patch + 0.2);
-  const auto channel = [&](double at) {
-    const double x = std::clamp(std::abs(std::remainder(hue - at, 6.0)), 0.0, 3.0);
-    return light * (0.25 + 0.75 * std::clamp(2 - x, 0.0, 1.0));
-  };
-  return {static_cast<std::uint8_t>(255 * channel(0)), static_cast<std::uint8_t>(255 * channel(2)),
-          static_cast<std::uint8_t>(255 * channel(4))};
 }
 
 /// Colours of what elements show, each worked out once.
@@ -89,8 +77,11 @@ std::function<Rgb(std::uint32_t)> elementColour(const HemicubeLook& look, Hemicu
       return encoded(most > 0 ? side.emission / most : side.reflectance);
     };
   }
-  if (colours == HemicubeColours::kPatches)
-    return [&look](std::uint32_t e) { return colourOf(look.mesh->element_patch[e]); };
+  if (colours == HemicubeColours::kPatches) {
+    return [&look](std::uint32_t e) {
+      return encoded(glm::dvec3(kPatchPalette[(*look.colours)[look.mesh->element_patch[e]]]));
+    };
+  }
   auto shares = std::make_shared<std::vector<double>>(look.shares());
   shares->pop_back();
   const double most = shares->empty() ? 0 : *std::max_element(shares->begin(), shares->end());
@@ -108,7 +99,8 @@ std::span<const HemicubePictureRow> hemicubePictures() {
        HemicubeColours::kLight},
       {{"materials", "Materials", "the reflectance of what it sees; lamps in the colour of their light"},
        HemicubeColours::kMaterials},
-      {{"patches", "Patches", "which patch each pixel sees: the item buffer, a colour for each number"},
+      {{"patches", "Patches",
+        "which patch each pixel sees: the item buffer, in colours that neighbours do not share"},
        HemicubeColours::kPatches},
       {{"delta", "Delta form factors", "what share of the patch's light leaves through each pixel"},
        HemicubeColours::kDelta},

@@ -7,6 +7,7 @@
 #include "formfactor/hemicube_rays.h"
 #include "formfactor/item_elements.h"
 #include "formfactor/regions.h"
+#include "render/patch_colours.h"
 
 namespace unshot {
 
@@ -23,10 +24,12 @@ struct HemicubeEye::Parts {
   Parts(const Mesh& mesh, const CancelToken& cancel)
       : rays(mesh, cancel),
         elements(mesh),
-        delta(std::make_shared<const std::vector<double>>(deltaFormFactors(kLayout))) {}
+        delta(std::make_shared<const std::vector<double>>(deltaFormFactors(kLayout))),
+        colours(std::make_shared<const std::vector<std::uint8_t>>(patchColours(mesh))) {}
   HemicubeRays rays;
   ItemElements elements;
   std::shared_ptr<const std::vector<double>> delta;
+  std::shared_ptr<const std::vector<std::uint8_t>> colours;
 };
 
 HemicubeEye::HemicubeEye(std::shared_ptr<const Mesh> mesh, const CancelToken& cancel)
@@ -40,7 +43,7 @@ HemicubeLook HemicubeEye::look(std::uint32_t patch) {
   const HemicubeFrame frame =
       turnedHemicube(*mesh_, region.surface, side, region.sample, 1e-3 * std::sqrt(region.area), 1);
   const HemicubeView::Result seen = parts_->rays.look(frame, kLayout);
-  HemicubeLook out{mesh_, patch, kLayout, {}, parts_->delta};
+  HemicubeLook out{mesh_, patch, kLayout, {}, parts_->delta, parts_->colours};
   out.elements.reserve(seen.items.size());
   for (std::size_t k = 0; k < seen.items.size(); ++k) {
     const std::uint32_t element = parts_->elements.at(seen.items, kLayout, k);

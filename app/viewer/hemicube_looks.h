@@ -26,6 +26,7 @@ struct HemicubeLook {
   HemicubeLayout layout{0};
   std::vector<std::uint32_t> elements;               ///< seen, one per pixel of the layout; kNone: nothing
   std::shared_ptr<const std::vector<double>> delta;  ///< delta form factors, one per pixel
+  std::shared_ptr<const std::vector<std::uint8_t>> colours;  ///< of patches (render/patch_colours.h)
 
   std::uint32_t patchAt(std::size_t pixel) const {
     return elements[pixel] == kNone ? kNone : mesh->element_patch[elements[pixel]];

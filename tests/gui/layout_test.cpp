@@ -81,7 +81,15 @@ class Layout : public testing::TestWithParam<Window> {
         {"no action", {{"actions", "zebra"}}, {off}},
         {"scenes", {{"browse", std::string(UNSHOT_SOURCE_DIR) + "/tests/data"}}, {off}},
         {"picked", {{"pick", "0.45,0.6"}}, {}},
-        {"hemicube", {{"hemicube-view", "on"}}, {{"hemicube-view", "off"}}},
+        {"hemicube", {{"hemicube-view", "on"}}, {}},
+        {"hemicube and legend", {{"display", "form-factors"}}, {{"display", "radiosity"}}},
+        {"lecture's matrix", {{"complete-bounces", ""}, {"lecture-page", "matrix"}}, {}},
+        {"lecture's divergence",
+         {{"allow-divergence", "on"}, {"matrix-reflectance", "1.2"}},
+         {{"allow-divergence", "off"}}},
+        {"lecture's equation", {{"lecture-page", "equation"}}, {}},
+        {"lecture's shots", {{"lecture-page", "shots"}}, {}},
+        {"lecture's effects", {{"lecture-page", "effects"}}, {{"lecture", "off"}, {"hemicube-view", "off"}}},
         {"probes",
          {{"pin-probe", ""}, {"pick", "0.5,0.8"}, {"pin-probe", ""}},
          {{"clear-probes", ""}, {"unpick", ""}}},
@@ -158,7 +166,9 @@ class Layout : public testing::TestWithParam<Window> {
   }
   static ImGuiWindow* scrolled() {
     for (ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
-      if (window->Active && std::string(window->Name).starts_with("panel/sections")) return window;
+      if (window->Active && (std::string(window->Name).starts_with("panel/sections") ||
+                             std::string(window->Name).starts_with("lecture/page")))
+        return window;
     }
     return nullptr;
   }

@@ -1,6 +1,6 @@
 // The hemicube and the lecture in the viewer: what they show is what the solver has.
 #include <gtest/gtest.h>
-#include <imgui_internal.h>
+#include <imgui.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -187,49 +187,6 @@ TEST(Lecture, WhatTheMouseIsOverIsFramedInTheScene) {
   EXPECT_EQ(teaching.marks().size(), 2u) << "a side face: what the hemicube's pixel sees";
   hover(live, 400, 100);
   EXPECT_EQ(teaching.marks().size(), 1u);
-}
-
-/// Right and bottom edges of ImGui's windows lie in the window, and none but a popup covers another.
-void expectNoOverlap(int width, int height) {
-  const ImGuiContext& gui = *ImGui::GetCurrentContext();
-  std::vector<const ImGuiWindow*> shown;
-  for (const ImGuiWindow* window : gui.Windows) {
-    if (!window->WasActive || window->Hidden || (window->Flags & ImGuiWindowFlags_ChildWindow) != 0 ||
-        std::string_view(window->Name).starts_with("Debug"))
-      continue;
-    shown.push_back(window);
-    EXPECT_GE(window->Pos.x, 0) << window->Name;
-    EXPECT_GE(window->Pos.y, 0) << window->Name;
-    EXPECT_LE(window->Pos.x + window->Size.x, static_cast<float>(width)) << window->Name;
-    EXPECT_LE(window->Pos.y + window->Size.y, static_cast<float>(height)) << window->Name;
-  }
-  for (std::size_t a = 0; a < shown.size(); ++a) {
-    for (std::size_t b = 0; b < a; ++b)
-      EXPECT_FALSE(shown[a]->Rect().Overlaps(shown[b]->Rect()))
-          << shown[a]->Name << " and " << shown[b]->Name;
-  }
-}
-
-TEST(Lecture, EveryPageHasRoomAtEverySizeAndScale) {
-  for (const auto& [width, height, scale] : {std::tuple{1280, 800, 1.0}, {640, 360, 1.0}, {1280, 720, 2.0}}) {
-    LiveViewer::Options options =
-        cornellBox("wait converged\ncomplete-bounces\npick 0.5,0.3\nhemicube-view on\n");
-    options.width = width;
-    options.height = height;
-    LiveViewer live(options);
-    ASSERT_TRUE(finished(live));
-    live->setScale(scale);
-    for (const std::string page : {"", "matrix", "equation", "shots", "effects"}) {
-      for (const char* display : {"radiosity", "form-factors"}) {
-        SCOPED_TRACE(std::to_string(width) + " x " + std::to_string(height) + ", " + page + ", " + display);
-        if (!page.empty()) live->perform("lecture-page", page);
-        live->perform("display", display);
-        ASSERT_TRUE(live.until([&] { return live->nextFrame(0) > 1e30; })) << "never at rest";
-        expectNoOverlap(width, height);
-        EXPECT_FALSE(live->error());
-      }
-    }
-  }
 }
 
 TEST(Lecture, PicturesOfAPatchAndOfAShotShowSomething) {

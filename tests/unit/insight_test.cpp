@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, Insights, testing::Values("hemicube", "rays", 
 
 // Sums of a few hundred values kept as float: 1e-6 of 1 and less.
 TEST_P(Insights, GroupsOfOnePatchHoldTheSolversOwnFactors) {
-  const auto solve = solved(closedBox(), optionsOf(GetParam(), 100, 1e-4));
+  const auto solve = solved(closedBox(), optionsOf(GetParam(), 50, 1e-4));
   const std::uint32_t n = solve->mesh().patch_count;
   ASSERT_LE(n, GatheredMatrix::kMostGroups);
   const auto m = gatheredOf(*solve);

@@ -118,8 +118,11 @@ std::string bounceText(const std::vector<glm::dvec3>& power, std::size_t k) {
 }
 
 void bouncesSection(Viewer& viewer) {
+  if (sectionOfLeft("Bounces", viewer.state())) bouncesContent(viewer);
+}
+
+void bouncesContent(Viewer& viewer) {
   const SessionState& state = viewer.state();
-  if (!sectionOfLeft("Bounces", state)) return;
   if (!state.snapshot) {
     ImGui::TextDisabled("nothing yet");
     return;

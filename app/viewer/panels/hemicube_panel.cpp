@@ -13,7 +13,8 @@ namespace unshot {
 namespace {
 
 constexpr float kSide = 17;                            // of the cross, in letters' heights
-constexpr float kLines = 8;                            // of text beside it, the same
+constexpr float kLines = 10.5f;                        // of text beside it, the same
+constexpr float kLeast = 5;                            // of the cross, or there is no room for it
 constexpr float kMostShare = 0.45f;                    // of the window's height that it takes
 constexpr float kLegendWidth = 26, kLegendHeight = 6;  // of the legend of false colours, in letters' heights
 
@@ -70,14 +71,16 @@ void cross(Viewer& viewer, float side) {
   pixelTip(viewer, pixel(mouse.x - at.x), pixel(mouse.y - at.y));
 }
 
-void sums(const Teaching& teaching) {
+void sums(const Teaching& teaching, float side) {
   const HemicubeLook& look = *teaching.look();
   double sum = 0;
   for (const double delta : *look.delta) sum += delta;
   const double escape = teaching.shares().back();
   const std::string text = "\u2211\u0394F = " + figureText(sum - escape) +
                            (escape > 0 ? ", escapes " + figureText(escape) : std::string());
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + side);
   ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
   tooltip(
       "Delta form factors of all pixels that see something, and of those that see nothing: together 1. In a "
       "closed scene nothing escapes");
@@ -113,7 +116,7 @@ void hemicubeContent(Viewer& viewer, float side) {
     return;
   }
   cross(viewer, side);
-  if (teaching.look()) sums(teaching);
+  if (teaching.look()) sums(teaching, side);
   teaching.markPatch(patch, true);
 }
 
@@ -126,7 +129,7 @@ void buildHemicube(Viewer& viewer, int scene_width, float bottom) {
   const float under = legend ? kLegendHeight * em : 0.7f * em;
   const float room = std::min(static_cast<float>(scene_width) - 4 * em, height - under - kLines * em);
   const float side = std::floor(std::min({kSide * em, room, kMostShare * height}));
-  if (side < 4 * em) return;
+  if (side < kLeast * em) return;
   ImGui::SetNextWindowPos({0.7f * em, height - under}, ImGuiCond_Always, {0, 1});
   ImGui::SetNextWindowBgAlpha(0.94f);
   ImGui::Begin("hemicube", nullptr,

@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kDecades = 4;                 // that the heat map's colours go over
 constexpr float kLegend = 0.7f, kBars = 4.5f;  // heights in letters
+constexpr float kWideLine = 30;                // has room for all choices of the matrix, in letters' heights
 constexpr std::size_t kTermsShown = 24;
 const ImVec4 kRed{1.0f, 0.38f, 0.33f, 1};
 
@@ -313,14 +314,16 @@ void matrixPage(Viewer& viewer) {
     dimmed(countedText(m.missing, "column") + " of form factors are missing and count as nothing.");
     computeMissing(viewer);
   }
+  const float em = ImGui::GetFontSize();
+  const bool wide = ImGui::GetContentRegionAvail().x > kWideLine * em;
   chooseChannel(viewer);
-  ImGui::SameLine();
+  if (wide) ImGui::SameLine();
   choosePower(viewer);
   chooseReflectance(viewer);
   const TeachingChoices& choices = teaching.choices;
   MatrixSeries& series = teaching.series();
   const float gap = ImGui::GetStyle().ItemSpacing.x, room = ImGui::GetContentRegionAvail().x;
-  const bool beside = room > 20 * ImGui::GetFontSize();
+  const bool beside = room > 20 * em;
   const float side = std::floor(beside ? (room - 2 * gap) / 2 : room);
   map(viewer, "##M", series.power(1), "M = R F", side);
   if (beside) ImGui::SameLine(0, 2 * gap);

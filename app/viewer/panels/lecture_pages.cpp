@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/text.h"
+#include "viewer/panels/bounce_panel.h"
 #include "viewer/panels/hemicube_panel.h"
 #include "viewer/panels/lecture_panel.h"
 #include "viewer/panels/widgets.h"
@@ -13,6 +14,7 @@ namespace unshot {
 namespace {
 
 constexpr std::string_view kLight = "W/m\u00b2";
+constexpr float kWideEffects = 24;  // has room for a column of names, in letters' heights
 
 bool beginChannels(const char* id) {
   if (!ImGui::BeginTable(id, 5, ImGuiTableFlags_NoPadOuterX)) return false;
@@ -158,6 +160,17 @@ constexpr std::array<Effect, 11> kEffects = {{
      "Matters of the camera, not of the light: any picture of the solution could have them."},
 }};
 
+/// What follows goes on in the line where it is no wider than the room that is left there.
+void goOn(float width) {
+  const float right = ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + width;
+  if (right <= ImGui::GetWindowPos().x + ImGui::GetContentRegionMax().x) ImGui::SameLine();
+}
+
+bool buttonBeside(const char* text) {
+  goOn(ImGui::CalcTextSize(text).x + 2 * ImGui::GetStyle().FramePadding.x);
+  return ImGui::Button(text);
+}
+
 }  // namespace
 
 void equationPage(Viewer& viewer) {
@@ -177,24 +190,26 @@ void equationPage(Viewer& viewer) {
   line("\u2211 F_ij",
        figureText(p->row_sum) + (p->missing > 0 ? ", " + countText(p->missing) + " columns missing" : ""),
        "Sum over the patches whose form factors are at hand: 1 where all that i sees is among them");
-  if (p->missing > 0 && viewer.state().phase != SessionPhase::kRunning) {
-    if (ImGui::Button("Compute them at rest")) viewer.perform("complete-bounces");
-    tooltip("Computes the form factors of all patches that hold light");
-  }
   sources(viewer, *p);
-  dimmed("The energy of each bounce stands in the side panel under Bounces.");
+  ImGui::TextUnformatted("Power of the bounces M^k E, all patches together");
+  bouncesContent(viewer);
 }
 
 void shotsPage(Viewer& viewer) {
   if (ImGui::Button("Step")) viewer.perform("step");
   tooltip("N: the patch chosen next shoots, then the solve pauses");
-  ImGui::SameLine();
-  if (ImGui::Button("Again")) viewer.perform("again");
+  const bool paused = viewer.state().phase == SessionPhase::kPaused;
+  ImGui::BeginDisabled(!paused && viewer.state().phase != SessionPhase::kRunning);
+  if (buttonBeside(paused ? "Resume" : "Pause")) viewer.perform("pause");
+  tooltip("Space");
+  ImGui::EndDisabled();
+  if (buttonBeside("Again")) viewer.perform("again");
   tooltip("From nothing shot, with the form factors at hand");
-  ImGui::SameLine();
+  const char* show = "Show it alone";
+  goOn(ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize(show).x);
   bool on = viewer.settings().view.display == "last-shot";
-  if (ImGui::Checkbox("Show what it added", &on)) viewer.perform("display", on ? "last-shot" : "radiosity");
-  tooltip("In the picture only what the last single step added to B, brightened to be seen");
+  if (ImGui::Checkbox(show, &on)) viewer.perform("display", on ? "last-shot" : "radiosity");
+  tooltip("In the picture only what the last single step added to B, exposed to be seen (display last-shot)");
   shotText(viewer);
   ImGui::Separator();
   const float em = ImGui::GetFontSize();
@@ -214,20 +229,24 @@ void shotsPage(Viewer& viewer) {
 
 void effectsPage() {
   wrapped("Radiosity follows light between diffuse surfaces, all of it, and nothing else.");
-  if (!ImGui::BeginTable("effects", 3, ImGuiTableFlags_NoPadOuterX | ImGuiTableFlags_RowBg)) return;
   const float em = ImGui::GetFontSize();
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 8 * em);
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 3.5f * em);
+  const bool wide = ImGui::GetContentRegionAvail().x > kWideEffects * em;
+  if (!ImGui::BeginTable("effects", wide ? 3 : 1, ImGuiTableFlags_NoPadOuterX | ImGuiTableFlags_RowBg))
+    return;
+  if (wide) {
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 8 * em);
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 3.5f * em);
+  }
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
   for (const Effect& effect : kEffects) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     wrapped(effect.name);
-    ImGui::TableNextColumn();
+    if (wide) ImGui::TableNextColumn();
     const bool yes = std::string_view(effect.shown) == "yes";
     ImGui::TextColored(yes ? ImVec4(0.5f, 0.85f, 0.5f, 1) : ImVec4(0.85f, 0.75f, 0.5f, 1), "%s",
                        effect.shown);
-    ImGui::TableNextColumn();
+    if (wide) ImGui::TableNextColumn();
     wrapped(effect.why);
   }
   ImGui::EndTable();

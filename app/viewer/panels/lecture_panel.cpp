@@ -28,24 +28,35 @@ void page(Viewer& viewer, LecturePage shown) {
   }
 }
 
+/// The pages' names, over as many lines as they take, and what closes all of it.
 void tabs(Viewer& viewer) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const auto widthOf = [&](const char* text) {
+    return ImGui::CalcTextSize(text).x + 2 * style.FramePadding.x;
+  };
+  const ImVec2 start = ImGui::GetCursorPos();
+  const float close = ImGui::GetContentRegionMax().x - widthOf("\u00d7");
+  ImGui::SetCursorPosX(close);
+  if (ImGui::Button("\u00d7")) viewer.perform("lecture", "off");
+  tooltip("T: closes the lecture");
+  ImGui::SetCursorPos(start);
   const LecturePage shown = viewer.teaching().choices.page;
+  float right = start.x;
   for (const LecturePageRow& row : lecturePages()) {
-    if (row.page != LecturePage::kMatrix) ImGui::SameLine();
+    const std::string title(row.info.title);
+    const float width = widthOf(title.c_str());
+    const bool fits = right + style.ItemSpacing.x + width <= close - style.ItemSpacing.x;
+    if (row.page != LecturePage::kMatrix && fits) ImGui::SameLine();
+    right = row.page != LecturePage::kMatrix && fits ? right + style.ItemSpacing.x + width : start.x + width;
     const bool present = row.page == shown;
     ImGui::PushStyleColor(ImGuiCol_Button,
                           ImGui::GetStyleColorVec4(present ? ImGuiCol_TabActive : ImGuiCol_WindowBg));
     ImGui::PushStyleColor(ImGuiCol_Text,
                           ImGui::GetStyleColorVec4(present ? ImGuiCol_PlotLines : ImGuiCol_Text));
-    if (ImGui::Button(std::string(row.info.title).c_str()))
-      viewer.perform("lecture-page", std::string(row.info.key));
+    if (ImGui::Button(title.c_str())) viewer.perform("lecture-page", std::string(row.info.key));
     ImGui::PopStyleColor(2);
     tooltip(row.info.help);
   }
-  const float button = ImGui::CalcTextSize("\u00d7").x + 2 * ImGui::GetStyle().FramePadding.x;
-  ImGui::SameLine(std::max(ImGui::GetContentRegionMax().x - button, ImGui::GetCursorPosX()));
-  if (ImGui::Button("\u00d7")) viewer.perform("lecture", "off");
-  tooltip("T: closes the lecture");
 }
 
 }  // namespace
