@@ -171,6 +171,7 @@ void Viewer::perform(std::string_view action, const std::string& argument) {
 
 void Viewer::key(int key, bool ctrl) {
   endHint();
+  if (ui_.prompt.open()) return;  // what is typed before its line is there is for it too
   if (const Action* action = actionOfKey(key, ctrl)) perform(action->key, action->argumentOfKey(key));
 }
 

@@ -159,6 +159,8 @@ class PromptedViewer : public testing::Test {
 
 TEST_F(PromptedViewer, AnActionIsFoundAndPerformed) {
   live_->key('P', true);
+  live_->key('O', false);
+  EXPECT_FALSE(live_->camera().orthographic) << "typed before the line is there, and a key of the scene";
   frames();
   EXPECT_TRUE(ImGui::GetIO().WantTextInput) << "keys would go to the scene";
   type("orthogr");
