@@ -57,16 +57,6 @@ TEST_F(Window, SpacePausesAndNStepsAndSpaceGoesOn) {
   endsOn(run, "ctrl+q");
 }
 
-TEST_F(Window, AnActionIsTypedAndPerformed) {
-  WindowRun run(kLongSolve);
-  const std::string paused = pausedScene(run);
-  run.key("ctrl+p");
-  xdotool("type orthographic");
-  run.key("Return");
-  EXPECT_TRUE(run.sceneChanges(paused));
-  endsOn(run, "ctrl+q");
-}
-
 TEST_F(Window, KeysOfTheDisplay) {
   WindowRun run(kLongSolve);
   const std::string unshot = pausedScene(run);
