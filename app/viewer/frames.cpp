@@ -172,14 +172,14 @@ bool Viewer::draw(GLuint framebuffer, int width, int height) {
   const bool changed = painted_ != look;
   painted_ = look;
   if (changed) paint(framebuffer, width, height, scene_width_, true);
-  // The next frame measures what this one shows.
-  if (changed && referencePicture()) gui_frames_ = std::max(gui_frames_, 1);
   // ImGui shows a new window one frame late.
   if (!captures_.empty() && gui_frames_ == 0) {
     const Capture next = captures_.front();
     captures_.pop_front();
     capture(next, width, height, scene_width_);
   }
+  // The next frame measures what this one shows.
+  if (changed && referencePicture()) gui_frames_ = std::max(gui_frames_, 1);
   gl::checkErrors(setup_.display->functions(), "drawing a frame of the viewer");
   return changed;
 }
