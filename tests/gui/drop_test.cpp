@@ -72,7 +72,8 @@ TEST_F(Drop, OfWhatIsNoSceneIsSaidAndChangesNothing) {
   const std::vector<std::pair<std::string, std::string>> refused{
       {files_.write("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1 zero\nf 1 2 3\n"), "'zero' is not a number"},
       {files_.write("notes.txt", "nothing but words\n"), "no line of this file is an OBJ statement"},
-      {files_.write("picture.png", std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16)), "is not text"},
+      {files_.write("picture.png", std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16)),
+       "not a picture that can be read"},
       {files_ / "gone.obj", "there is no such file"},
       {files_.path().string(), "this is a folder"}};
   const std::vector<float> calm = upperHalf();

@@ -100,7 +100,7 @@ TEST(Picking, ShowsWhatProbesShowAndFollowsTheLight) {
     }
     if (quantity.title != "Power of patch") continue;
     ASSERT_TRUE(value);
-    EXPECT_NEAR(value->x / snapshot.mesh->patch_area[picked(live).pick.patch] / late.x, 1, 0.3);
+    EXPECT_NEAR(value->x / snapshot.mesh->patch_area[picked(live).pick.patch] / late.x, 1, 0.6);
   }
 }
 
@@ -226,10 +226,10 @@ TEST(Picking, CopiesValuesAsText) {
 // At the first picture too: marks are of the camera that a screenshot is made with.
 TEST(Picking, MarksStandInScreenshots) {
   const TempFolder folder;
-  const ProgramResult run = runScript(
-      folder,
-      "pause on\nstep 1\nwait shots 1\npick 0.5,0.93\nscreenshot with.png\nunpick\nscreenshot without.png\n",
-      {kCornellBox, "--elements", "300", "--size", "1004x700"});
+  const ProgramResult run = runScript(folder,
+                                      "status off\npause on\nstep 1\nwait shots 1\npick 0.5,0.93\nscreenshot "
+                                      "with.png\nunpick\nscreenshot without.png\n",
+                                      {kCornellBox, "--elements", "300", "--size", "1004x700"});
   ASSERT_EQ(run.code, 0) << run.err;
   const ImageF with = picture(folder, "with.png"), without = picture(folder, "without.png");
   int near = 0, far = 0;
@@ -237,8 +237,8 @@ TEST(Picking, MarksStandInScreenshots) {
     for (int x = 0; x < 700; ++x) {
       const auto at = static_cast<std::size_t>(3 * (y * with.width + x));
       const bool differs = !std::equal(&with.rgb[at], &with.rgb[at] + 3, &without.rgb[at]);
-      // The cross is a line of text high; the patch around it is below 100 wide.
-      (std::abs(x - 350) < 100 && std::abs(y - 651) < 60 ? near : far) += differs;
+      // The cross is a line of text high; the patch around it is below 150 wide.
+      (std::abs(x - 350) < 150 && std::abs(y - 651) < 60 ? near : far) += differs;
     }
   }
   EXPECT_GT(near, 100);
