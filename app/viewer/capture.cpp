@@ -89,6 +89,7 @@ void Viewer::drawForCapture(int width, int height) {
     scene_.draw({navigator_.camera(), ui_.settings, scene_width_, height, samples}, -1,
                 SceneDisplay::kAtOnce);
   } catch (const Error& error) {
+    captures_.pop_front();  // it is not tried for ever
     fail(error);
   }
 }

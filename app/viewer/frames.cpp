@@ -49,8 +49,9 @@ double Viewer::nextPaint() const {
 double Viewer::nextSceneWork() const {
   if (scene_.framing() || (sceneStands() && scene_.outdated(wanted()))) return last_scene_work_;
   const double soon = last_scene_work_ + kFrameSeconds;
-  if ((sceneStands() && scene_.gliding()) || (frame_wanted_ && state_->snapshot)) return soon;
-  if (!scene_.has(state_->snapshot, rivalSnapshot())) return nextSnapshot();
+  if ((sceneStands() && scene_.gliding()) || (frame_wanted_ && state_->snapshot && !snapshotRefused()))
+    return soon;
+  if (hasNewSnapshot()) return nextSnapshot();
   return mayBeSharpened(kNever) ? std::max(soon, last_motion_ + kRestSeconds) : kNever;
 }
 
@@ -99,8 +100,12 @@ std::shared_ptr<const Snapshot> Viewer::rivalSnapshot() const {
   return state_->rival ? state_->rival->snapshot : nullptr;
 }
 
+bool Viewer::hasNewSnapshot() const {
+  return !snapshotRefused() && !scene_.has(state_->snapshot, rivalSnapshot());
+}
+
 void Viewer::takeSnapshot(double now) {
-  if (scene_.has(state_->snapshot, rivalSnapshot())) return;
+  if (!hasNewSnapshot()) return;
   // What is half drawn is of one state; the next picture shows the new one.
   const bool same_mesh =
       state_->snapshot && scene_.snapshot() && state_->snapshot->mesh->cut == scene_.snapshot()->mesh->cut;
@@ -111,6 +116,7 @@ void Viewer::takeSnapshot(double now) {
   try {
     scene_.setSnapshots(state_->snapshot, rivalSnapshot());
   } catch (const Error& error) {  // too large for the driver: the picture before stays
+    refused_snapshot_ = state_->snapshot;
     fail(error);
   }
 }

@@ -6,8 +6,9 @@
 namespace unshot {
 
 bool Viewer::settled() const {
-  return session_.sent() == state_->commands && state_->phase != SessionPhase::kLoading && !frame_wanted_ &&
-         !scene_.framing() && captures_.empty() && !state_->spareWork() && teaching_->settled();
+  return session_.sent() == state_->commands && state_->phase != SessionPhase::kLoading &&
+         !(frame_wanted_ && !snapshotRefused()) && !scene_.framing() && captures_.empty() &&
+         !state_->spareWork() && teaching_->settled();
 }
 
 bool Viewer::waitIsOver(const ScriptLine& line, double now) {

@@ -295,6 +295,8 @@ class Viewer {
   double nextPaint() const;
   double nextSceneWork() const;
   double nextSnapshot() const;
+  bool hasNewSnapshot() const;
+  bool snapshotRefused() const { return refused_snapshot_ && state_->snapshot == refused_snapshot_; }
   void takeSnapshot(double now);
   bool sceneStands() const;
   SceneDisplay::Wanted wanted() const;
@@ -369,6 +371,7 @@ class Viewer {
   // The scene shown.
   std::filesystem::path framed_scene_;  // the camera is for this one
   bool frame_wanted_ = true;
+  std::shared_ptr<const Snapshot> refused_snapshot_;  // one that the driver has no room for
   std::deque<RatePoint> rate_points_;
 
   // Messages.

@@ -10,6 +10,12 @@
 #include "session/saved_solve.h"
 
 namespace unshot {
+namespace {
+
+// Enough for a state, the messages and the buffers of a save, by far.
+constexpr std::size_t kReserve = std::size_t{32} << 20;
+
+}  // namespace
 
 bool isSuperseded(const Command& command, const Command& later) {
   const bool opens = std::holds_alternative<command::Open>(later);
@@ -22,7 +28,7 @@ bool isSuperseded(const Command& command, const Command& later) {
 }
 
 LiveSolve::LiveSolve(LiveSolveSetup setup)
-    : setup_(std::move(setup)), saver_(setup_.kept.path, setup_.kept.every) {}
+    : setup_(std::move(setup)), reserve_(kReserve), saver_(setup_.kept.path, setup_.kept.every) {}
 
 LiveSolve::~LiveSolve() {
   lane_.reset();  // its GL objects, while the context is still current
@@ -37,7 +43,7 @@ void LiveSolve::carryOut(const Command& command) {
   } catch (const Cancelled&) {
     abandoned_ = true;
   } catch (...) {
-    note(presentError());
+    noteException();
   }
   task_.clear();
   const auto* const edit = std::get_if<command::Edit>(&command);
@@ -215,13 +221,21 @@ void LiveSolve::saveKept() {
     lane_->checkUsable();
     saver_.save(lane_->solve());
   } catch (...) {
-    note(presentError());
+    noteException();
   }
 }
 
 void LiveSolve::finish() {
   if (!isKept()) return;
+  reserve_.release();
   saveKept();
+  publish();
+}
+
+void LiveSolve::recover() {
+  reserve_.release();
+  task_.clear();
+  settle();
   publish();
 }
 
@@ -287,6 +301,7 @@ void LiveSolve::begin(Start start) {
   lane_ = std::move(fresh);
   lane_->lookInto(insight_);
   rival_ = std::move(rival);
+  reserve_.refill();
   paused_ = false;
   steps_left_ = 0;
   ++epoch_;
@@ -307,6 +322,16 @@ void LiveSolve::settle() {
     if (!lane.running()) lane.noteFailure();
   });
   if (!going && phase() != SessionPhase::kPaused) steps_left_ = 0;
+}
+
+void LiveSolve::noteException() {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    reserve_.release();  // the message needs memory
+  } catch (...) {
+  }
+  note(presentError());
 }
 
 void LiveSolve::note(Error problem) {

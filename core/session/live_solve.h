@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/memory_reserve.h"
 #include "session/insight.h"
 #include "session/lane.h"
 #include "session/saver.h"
@@ -95,6 +96,9 @@ class LiveSolve {
   void spareWork();
   /// What is left to do before the end: saves the solve that is kept.
   void finish();
+  /// After one of these threw std::bad_alloc, where not even a message or a state found memory: publishes
+  /// with memory that was set aside. May be tried again where it throws too.
+  void recover();
 
  private:
   void perform(const command::Open& c);
@@ -135,6 +139,8 @@ class LiveSolve {
   void announce(const std::string& task);
   void settle();
   void note(Error problem);
+  /// Notes what is being handled.
+  void noteException();
   void publish();
   template <class F>
   void forEachLane(F&& f) const {
@@ -152,6 +158,7 @@ class LiveSolve {
   }
 
   LiveSolveSetup setup_;
+  MemoryReserve reserve_;
   std::unique_ptr<Lane> lane_, rival_;  // rival_: in a race
   bool paused_ = false;
   std::uint64_t steps_left_ = 0;  // before a pause; 0: no pause is due

@@ -23,9 +23,9 @@ std::optional<Error> Saver::offer(const Solve& solve, bool at_rest) {
   if (!due(at_rest)) return std::nullopt;
   try {
     save(solve);
-  } catch (const Error& error) {
+  } catch (...) {
     next_ = next_at_rest_ = wallSeconds() + every_;
-    return error;
+    return presentError();
   }
   return std::nullopt;
 }

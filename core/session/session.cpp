@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -11,6 +12,12 @@
 #include "session/live_solve.h"
 
 namespace unshot {
+namespace {
+
+// Others let go of memory meanwhile.
+constexpr std::chrono::milliseconds kBeforeAnotherTry{50};
+
+}  // namespace
 
 struct Session::Impl {
   const SessionSetup setup;
@@ -77,9 +84,11 @@ void Session::Impl::run() {
                   .given_up = CancelToken(given_up),
                   .interval = &interval,
                   .kept = setup.kept});
+  bool shaken = false;  // what was to be published is still to be
   while (!closing) {
-    // Only where there is no memory for as much as a state: the next one says what became of the session.
     try {
+      if (shaken) live.recover();
+      shaken = false;
       if (const std::optional<Command> command = next(!live.running() && !live.hasSpareWork()))
         live.carryOut(*command);
       else if (live.running() && !closing)
@@ -87,6 +96,8 @@ void Session::Impl::run() {
       else if (!command && !closing && live.hasSpareWork())
         live.spareWork();
     } catch (const std::bad_alloc&) {
+      if (shaken) std::this_thread::sleep_for(kBeforeAnotherTry);
+      shaken = true;
     }
   }
   try {

@@ -263,14 +263,19 @@ void Solve::step(std::uint64_t most_shots) {
   Impl& s = *impl_;
   if (s.progress_state != SolveState::kRunning) return;
   s.wakeClocks();
-  try {
-    s.advance(most_shots);
-  } catch (...) {
-    const Error error = presentError();
+  const auto fail = [&s](const Error& error) {
     s.mode.reset();
     // What was reached can be shown and saved without them, which needs memory too.
     if (error.kind() == ErrorKind::kEnvironment) s.transport->release();
     s.fail(error.kind(), error.what(), error.advice());
+  };
+  try {
+    s.advance(most_shots);
+  } catch (const std::bad_alloc&) {
+    s.transport->release();  // and so does the message
+    fail(presentError());
+  } catch (...) {
+    fail(presentError());
   }
 }
 
