@@ -93,6 +93,22 @@ TEST_F(Window, KeysOfTheDisplay) {
   endsOn(run, "ctrl+q");
 }
 
+TEST_F(Window, AnActionIsTypedIntoTheList) {
+  WindowRun run(kLongSolve);
+  ASSERT_TRUE(run.hasTitle(kTitle));
+  // Keys that come before the list is there are for nothing: then once more, as a person would.
+  EXPECT_TRUE(eventually([&] {
+    run.key("ctrl+p");
+    xdotool("sleep 0.5 type --delay 30 'screenshot typed.png'");
+    xdotool("key Return sleep 0.5");
+    if (run.folder().has("typed.png")) return true;
+    run.key("Escape");
+    return run.folder().has("typed.png");
+  }));
+  EXPECT_EQ(run.folder().names(), std::set<std::string>{"typed.png"}) << "typed keys went to the scene too";
+  endsOn(run, "ctrl+q");
+}
+
 TEST_F(Window, MouseAndFlight) {
   WindowRun run(kLongSolve);
   pausedScene(run);

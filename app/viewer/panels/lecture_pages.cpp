@@ -14,14 +14,21 @@ namespace unshot {
 namespace {
 
 constexpr std::string_view kLight = "W/m\u00b2";
-constexpr float kWideEffects = 24;  // has room for a column of names, in letters' heights
+// Widths that have room for a column of names, and of units, in letters' heights.
+constexpr float kWideEffects = 24, kWideChannels = 25;
 
+/// A name, three figures and, where there is room for it, a unit.
 bool beginChannels(const char* id) {
-  if (!ImGui::BeginTable(id, 5, ImGuiTableFlags_NoPadOuterX)) return false;
+  const bool wide = ImGui::GetContentRegionAvail().x > kWideChannels * ImGui::GetFontSize();
+  ImGui::PushStyleVar(ImGuiStyleVar_CellPadding,
+                      {0.2f * ImGui::GetFontSize(), ImGui::GetStyle().CellPadding.y});
+  const bool begun = ImGui::BeginTable(id, wide ? 5 : 4, ImGuiTableFlags_NoPadOuterX);
+  ImGui::PopStyleVar();
+  if (!begun) return false;
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
-  const float width = ImGui::CalcTextSize("-1.23e-05").x;
-  for (int k = 0; k < 3; ++k) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, width);
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("W/(m\u00b2 sr)").x);
+  for (int k = 0; k < 3; ++k) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, channelWidth());
+  if (wide)
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("W/(m\u00b2 sr)").x);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   for (const char* name : {"R", "G", "B"}) {
@@ -38,9 +45,10 @@ void row(const char* name, const glm::dvec3& value, std::string_view unit, std::
   tooltip(tip);
   for (int k = 0; k < 3; ++k) {
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(figureText(value[k]).c_str());
+    ImGui::TextUnformatted(channelText(value[k]).c_str());
     tooltip(tip);
   }
+  if (ImGui::TableGetColumnCount() < 5) return;
   ImGui::TableNextColumn();
   ImGui::TextDisabled("%s", std::string(unit).c_str());
 }
@@ -77,7 +85,7 @@ void sources(Viewer& viewer, const PatchInsight& p) {
   if (!ImGui::BeginTable("sources", 4, ImGuiTableFlags_NoPadOuterX)) return;
   ImGui::TableSetupColumn("patch j", ImGuiTableColumnFlags_WidthStretch);
   for (const char* name : {"F_ij", "B_j (G)", "share"})
-    ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("-1.23e-05").x);
+    ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthFixed, channelWidth());
   ImGui::TableHeadersRow();
   for (const PatchSource& source : p.sources) {
     const bool sky = source.patch >= mesh.patch_count;
@@ -86,9 +94,9 @@ void sources(Viewer& viewer, const PatchInsight& p) {
     ImGui::TextUnformatted(sky ? "the sky" : patchText(mesh, source.patch).c_str());
     if (!sky && ImGui::IsItemHovered()) viewer.teaching().markPatch(source.patch, true);
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(figureText(source.factor).c_str());
+    ImGui::TextUnformatted(channelText(source.factor).c_str());
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(figureText(source.radiosity.y).c_str());
+    ImGui::TextUnformatted(channelText(source.radiosity.y).c_str());
     ImGui::TableNextColumn();
     const glm::dvec3 all = p.gathered, part = source.factor * source.radiosity;
     const double sum = all.x + all.y + all.z;
@@ -191,7 +199,7 @@ void equationPage(Viewer& viewer) {
        figureText(p->row_sum) + (p->missing > 0 ? ", " + countText(p->missing) + " columns missing" : ""),
        "Sum over the patches whose form factors are at hand: 1 where all that i sees is among them");
   sources(viewer, *p);
-  ImGui::TextUnformatted("Power of the bounces M^k E, all patches together");
+  wrapped("Power of the bounces M^k E, all patches together");
   bouncesContent(viewer);
 }
 

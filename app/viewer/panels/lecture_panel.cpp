@@ -11,8 +11,9 @@
 namespace unshot {
 namespace {
 
-// At scale 1 [px]: its width, and how much of the scene is left beside both panels.
-constexpr double kWidth = 540, kLeastScene = 480;
+// At scale 1 [px]: its width, what its lines take at least, and how much of the scene is left beside both
+// panels.
+constexpr double kWidth = 540, kLeastWidth = 316, kLeastScene = 480;
 constexpr double kMostShare = 0.62;  // of the window, where that is small
 
 void page(Viewer& viewer, LecturePage shown) {
@@ -70,7 +71,9 @@ BesideScene besideScene(const Viewer& viewer, int width) {
   const double scale = viewer.scale();
   const int panel = panelWidth(viewer.ui(), scale, width);
   if (!viewer.teaching().choices.lecture) return {panel, 0};
-  const int lecture = static_cast<int>(std::lround(std::min(kWidth * scale, kMostShare * width)));
+  const double lines = std::min<double>(kLeastWidth * scale, width - 1);
+  const int lecture =
+      static_cast<int>(std::lround(std::min(kWidth * scale, std::max(lines, kMostShare * width))));
   return {width - panel - lecture >= kLeastScene * scale ? panel : 0, lecture};
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "base/text.h"
 #include "viewer/panels/marks.h"
@@ -19,17 +18,6 @@ void nameLine(const char* name, const std::string& value, const std::string& tip
   line(name, shown, shown == value ? tip : value + "\n" + tip);
 }
 
-/// As many digits as a column holds: "0.0123", "1.23e-5", "1.2e-12".
-std::string channelText(double value) {
-  const double size = std::abs(value);
-  if (value == 0 || (size >= 1e-3 && size < 1e5)) return figureText(value);
-  char text[32];
-  std::snprintf(text, sizeof text, size < 1e-9 || size >= 1e10 ? "%.1e" : "%.2e", value);
-  const std::string digits(text);
-  const std::size_t exponent = digits.find('e') + 1;
-  return digits.substr(0, exponent) + std::to_string(std::stoi(digits.substr(exponent)));
-}
-
 bool beginChannels(const char* id) {
   ImGui::PushStyleVar(ImGuiStyleVar_CellPadding,
                       {0.2f * ImGui::GetFontSize(), ImGui::GetStyle().CellPadding.y});
@@ -37,8 +25,7 @@ bool beginChannels(const char* id) {
   ImGui::PopStyleVar();
   if (!begun) return false;
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
-  const float width = ImGui::CalcTextSize("-1.23e-5").x;
-  for (int k = 0; k < 3; ++k) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, width);
+  for (int k = 0; k < 3; ++k) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, channelWidth());
   return true;
 }
 

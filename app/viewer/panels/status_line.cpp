@@ -16,6 +16,7 @@ namespace {
 
 constexpr float kHeight = 1.5f;  // in letters' heights
 constexpr float kGap = 1.1f;     // between two parts, the same
+constexpr const char* kWidestPhase = "Refining form factors";
 
 /// A part of the line. `widest` is the longest text that it usually has: so much room is kept for it, so that
 /// nothing moves when a figure gets longer or shorter.
@@ -86,6 +87,8 @@ PhaseLook phaseLook(const SessionState& state) {
 float buildStatusLine(Viewer& viewer, int scene_width) {
   if (!viewer.ui().panel || !viewer.ui().status) return 0;
   const float em = ImGui::GetFontSize(), height = std::round(kHeight * em);
+  const float phase = 0.7f * em + 0.8f * em + ImGui::CalcTextSize(kWidestPhase).x;
+  if (static_cast<float>(scene_width) < phase + 0.7f * em) return 0;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0, window.y - height});
   ImGui::SetNextWindowSize({static_cast<float>(scene_width), height});
@@ -103,7 +106,7 @@ float buildStatusLine(Viewer& viewer, int scene_width) {
   dot(look.colour);
   ImGui::TextUnformatted(look.text);
   tooltip("What the solve is doing. Tab hides this line with the panel");
-  float at = 0.7f * em + 0.8f * em + ImGui::CalcTextSize("Refining form factors").x + kGap * em;
+  float at = phase + kGap * em;
   for (const Part& part : partsOf(viewer)) {
     const float width =
         std::max(ImGui::CalcTextSize(part.widest).x, ImGui::CalcTextSize(part.text.c_str()).x);

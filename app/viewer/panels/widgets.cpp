@@ -1,8 +1,11 @@
 #include "viewer/panels/widgets.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 #include "base/parse.h"
+#include "base/text.h"
 
 namespace unshot {
 
@@ -40,6 +43,21 @@ void line(const char* name, const std::string& value, std::string_view tip) {
   const float width = ImGui::CalcTextSize(value.c_str()).x;
   ImGui::SameLine(std::max(ImGui::GetContentRegionMax().x - width, 6.6f * ImGui::GetFontSize()));
   ImGui::TextUnformatted(value.c_str());
+}
+
+std::string channelText(double value) {
+  const double size = std::abs(value);
+  if (value == 0 || (size >= 1e-3 && size < 1e5)) return figureText(value);
+  char text[32];
+  std::snprintf(text, sizeof text, size < 1e-9 || size >= 1e10 ? "%.1e" : "%.2e", value);
+  const std::string digits(text);
+  const std::size_t exponent = digits.find('e') + 1;
+  if (exponent == 0) return digits;  // no number
+  return digits.substr(0, exponent) + std::to_string(std::stoi(digits.substr(exponent)));
+}
+
+float channelWidth() {
+  return std::max(ImGui::CalcTextSize("-0.00123").x, ImGui::CalcTextSize("-1.2e-12").x);
 }
 
 void wrapped(const std::string& text) {

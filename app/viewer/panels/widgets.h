@@ -24,6 +24,10 @@ void dot(const ImVec4& colour);
 /// Text on the left and text at the right border.
 void line(const char* name, const std::string& value, std::string_view tip = {});
 
+/// As many digits as a column of figures holds: "0.0123", "1.23e-5", "1.2e-12"; and its width [px].
+std::string channelText(double value);
+float channelWidth();
+
 /// Text over as many lines as it takes.
 void wrapped(const std::string& text);
 void dimmed(const std::string& text);

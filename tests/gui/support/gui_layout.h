@@ -105,6 +105,7 @@ class LayoutCheck {
         out.insert(nameOf(*window) + " is too narrow for what is in it, " +
                    std::to_string(window->ContentSize.x) + " on " + std::to_string(room));
     }
+    tables(out);
     for (std::size_t k = 0; k < roots.size(); ++k) {
       const ImRect box = roots[k]->Rect();
       if (box.Min.x < -1 || box.Min.y < -1 || box.Max.x > screen_.x + 1 || box.Max.y > screen_.y + 1)
@@ -132,6 +133,24 @@ class LayoutCheck {
     const bool panel = std::string(a.Name) == "panel" || std::string(b.Name) == "panel";
     if (!panel && (liesOver(a.Name) || liesOver(b.Name))) return;
     out.insert(nameOf(a) + " and " + nameOf(b) + " lie over each other: " + text(common));
+  }
+
+  /// Columns of tables that are narrower than a cell in them.
+  static void tables(std::set<std::string>& out) {
+    ImGuiContext& gui = *ImGui::GetCurrentContext();
+    for (int k = 0; k < gui.Tables.GetMapSize(); ++k) {
+      ImGuiTable* const table = gui.Tables.TryGetMapData(k);
+      if (!table || table->LastFrameActive != gui.FrameCount) continue;
+      for (int n = 0; n < table->ColumnsCount; ++n) {
+        const ImGuiTableColumn& column = table->Columns[n];
+        const float widest = std::max(column.ContentMaxXUnfrozen, column.ContentMaxXFrozen) - column.WorkMinX;
+        const float room = column.WorkMaxX - column.WorkMinX;
+        if (column.IsEnabled && widest > room + 1)
+          out.insert(nameOf(*table->OuterWindow) + ": column " + std::to_string(n) +
+                     " of a table is too narrow for what is in it, " + std::to_string(widest) + " on " +
+                     std::to_string(room));
+      }
+    }
   }
 
   /// The words around a letter, for people.
