@@ -1,7 +1,6 @@
 // The frames of the viewer: when there is something to draw, how much of it at a time, and drawing it.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "base/clock.h"
@@ -18,7 +17,6 @@
 namespace unshot {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kFrameSeconds = 1.0 / 60;
 constexpr double kSnapshotSeconds = 1.0 / 30;
 // New light is drawn so seldom that the solver keeps most of a machine whose CPU draws.

@@ -53,6 +53,20 @@ void Viewer::rememberCamera(const SessionState& state) {
   memory_.keepCamera(state.facts->scene_path, camera);
 }
 
+/// When the camera, at rest by then, is to be written, so that a crash does not cost it.
+double Viewer::nextKeeping() const {
+  constexpr double kKeepSeconds = 2;
+  if (!memory_.on() || !sceneStands() || navigator_.moving() || navigator_.camera() == kept_camera_)
+    return kNever;
+  return last_motion_ + kKeepSeconds;
+}
+
+void Viewer::keepMovedCamera(double now) {
+  if (now < nextKeeping()) return;
+  rememberCamera(*state_);
+  kept_camera_ = navigator_.camera();
+}
+
 void Viewer::recallPanel() {
   ui_.hint = memory_.on() && script_.empty() && !memory_.setting("hint");
   const std::string text = memory_.setting("scale").value_or("");

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <limits>
 #include <utility>
 
 #include "base/atomic_file.h"
@@ -19,7 +18,6 @@
 namespace unshot {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kNoticeSeconds = 4;
 constexpr double kRateWindow = 1;
 
@@ -86,6 +84,7 @@ void Viewer::update(double now) {
   runScript(now);
   if (watch_.look(now)) input();
   followHint(now);
+  keepMovedCamera(now);
   if (!notice_.empty() && now >= notice_until_) {
     notice_.clear();
     input();
@@ -347,7 +346,7 @@ void Viewer::resizeWindow(int width, int height) {
 
 double Viewer::nextUpdate() const {
   double next = ui_.hint && hint_until_ > 0 ? hint_until_ : kNever;
-  next = std::min({next, notice_.empty() ? kNever : notice_until_, watch_.nextLook()});
+  next = std::min({next, notice_.empty() ? kNever : notice_until_, watch_.nextLook(), nextKeeping()});
   if (script_at_ < script_.size() && script_[script_at_].wait == WaitFor::kSeconds && wait_began_ >= 0)
     next = std::min(next, wait_began_ + script_[script_at_].amount);
   return next;

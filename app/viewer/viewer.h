@@ -15,6 +15,7 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -86,6 +87,9 @@ struct ViewerState {
 struct Rates {
   double shots = 0, columns = 0;
 };
+
+/// A time that does not come [s].
+inline constexpr double kNever = std::numeric_limits<double>::infinity();
 
 class Viewer {
  public:
@@ -306,6 +310,8 @@ class Viewer {
   void applyScale();
   bool recallCamera();
   void rememberCamera(const SessionState& state);
+  double nextKeeping() const;
+  void keepMovedCamera(double now);
   void followHint(double now);
   void endHint();
   void recallPanel();
@@ -339,6 +345,7 @@ class Viewer {
 
   Memory memory_;
   std::optional<Camera> found_camera_;  // the automatic one, which need not be remembered
+  std::optional<Camera> kept_camera_;   // of those that were written, the last
   bool camera_from_memory_ = true;      // where there is one, for the scene that is framed next
   bool sections_restored_ = false;
   double hint_until_ = 0;  // 0: the scene is not there yet

@@ -154,6 +154,16 @@ TEST_F(RememberingViewer, FindsTheSceneAsItWasLeft) {
   EXPECT_FALSE(Memory(folder_.path()).camera(kAssets / "cornell_box.obj"));
 }
 
+TEST_F(RememberingViewer, KeepsTheCameraWhileItIsOpen) {
+  const auto kept = [&] { return Memory(folder_.path()).camera(kAssets / "cornell_box.obj"); };
+  LiveViewer live(options());
+  untilFramed(live);
+  EXPECT_FALSE(kept());
+  live->perform("camera", "278,273,-900,278,273,0");
+  ASSERT_TRUE(live.until([&] { return kept().has_value(); }));
+  EXPECT_LT(glm::distance(kept()->eye, {278, 273, -900}), 1e-9);
+}
+
 TEST_F(RememberingViewer, FindsThePanelAsItWasLeft) {
   const auto sectionsOpen = [](LiveViewer& live) {
     std::map<ImGuiID, int> open;
