@@ -2,8 +2,9 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <glm/geometric.hpp>
+
+#include "base/text.h"
 
 namespace unshot {
 namespace {
@@ -29,13 +30,9 @@ const std::array<CameraPreset, 1> kPresets = {{
      {{278, 273, -800}, {278, 273, 0}, {0, 1, 0}, 39.3077}},
 }};
 
-std::string number(double x) {
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "%.7g", x);
-  return digits;
+std::string point(const glm::dvec3& p) {
+  return numberText(p.x) + "," + numberText(p.y) + "," + numberText(p.z);
 }
-
-std::string point(const glm::dvec3& p) { return number(p.x) + "," + number(p.y) + "," + number(p.z); }
 
 }  // namespace
 
@@ -65,13 +62,13 @@ bool fits(const CameraPreset& preset, const Bounds& bounds) {
 }
 
 std::string cameraLines(const Camera& camera) {
-  return "camera " + point(camera.eye) + "," + point(camera.at) + "," + number(camera.fov_deg) +
+  return "camera " + point(camera.eye) + "," + point(camera.at) + "," + numberText(camera.fov_deg) +
          "\nprojection " + (camera.orthographic ? "orthographic" : "perspective") + "\n";
 }
 
 std::string cameraOptions(const Camera& camera) {
   return "--eye " + point(camera.eye) + " --at " + point(camera.at) + " --up " + point(camera.up) +
-         " --fov " + number(camera.fov_deg);
+         " --fov " + numberText(camera.fov_deg);
 }
 
 }  // namespace unshot

@@ -6,6 +6,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "base/text.h"
+
 namespace unshot {
 namespace {
 
@@ -104,13 +106,9 @@ constexpr std::array kQuantities = {
                    true, rowSumOf},
 };
 
-std::string number(double x) {
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "%.9g", x);
-  return digits;
+std::string numbers(const glm::dvec3& v) {
+  return numberText(v.x) + "\t" + numberText(v.y) + "\t" + numberText(v.z);
 }
-
-std::string numbers(const glm::dvec3& v) { return number(v.x) + "\t" + number(v.y) + "\t" + number(v.z); }
 
 }  // namespace
 
@@ -239,13 +237,14 @@ std::string Picking::text(const LaneState& state) const {
   if (point.pick.element != kNone) {
     out += row("Element", "", std::to_string(point.pick.element));
     out += row("Patch", "", std::to_string(point.pick.patch));
-    out += row("Area of element", "m\u00b2", number(snapshot.mesh->element_area[point.pick.element]));
-    out += row("Area of patch", "m\u00b2", number(snapshot.mesh->patch_area[point.pick.patch]));
+    out += row("Area of element", "m\u00b2", numberText(snapshot.mesh->element_area[point.pick.element]));
+    out += row("Area of patch", "m\u00b2", numberText(snapshot.mesh->patch_area[point.pick.patch]));
   }
   for (const PickedQuantity& quantity : kQuantities) {
     const Value value = quantity.of(point, snapshot);
     if (value)
-      out += row(quantity.title, quantity.unit, quantity.one_channel ? number(value->x) : numbers(*value));
+      out +=
+          row(quantity.title, quantity.unit, quantity.one_channel ? numberText(value->x) : numbers(*value));
   }
   for (const PickedDecision& decision : point.decisions) out += row("Plan", "", decision.text);
   return out;

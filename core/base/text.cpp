@@ -20,6 +20,8 @@ std::string wholeText(double value) { return formatted("%.0f", value); }
 
 }  // namespace
 
+std::string numberText(double value) { return formatted("%.9g", value); }
+
 std::string countText(std::uint64_t count) {
   std::string text = std::to_string(count);
   for (std::ptrdiff_t place = std::ssize(text) - 3; place > 0; place -= 3) {

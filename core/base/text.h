@@ -11,6 +11,8 @@ namespace unshot {
 std::string countText(std::uint64_t count);
 /// 3 significant digits, without an exponent where that is readable: "0.0123", "45.6", "1.2e-08".
 std::string figureText(double value);
+/// Nine significant digits, for what is pasted elsewhere.
+std::string numberText(double value);
 /// A fraction as "1.23 %"; below a billionth "0 %".
 std::string percentText(double fraction);
 /// "1.2 ms", "0.123 s", "12.3 s", "3 min 20 s", "2 h 5 min".

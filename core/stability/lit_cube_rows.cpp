@@ -1,6 +1,4 @@
 // Closed cubes: furnaces, evenly lit and from one face, channel by channel, at any brightness.
-#include <cstdio>
-
 #include "scene/analytic_scenes.h"
 #include "stability/stability_rows.h"
 #include "stability/stability_scenes.h"
@@ -12,12 +10,6 @@ SolveOptions evenMesh(std::uint64_t elements, double error) {
   options.elements = elements;
   options.error = error;
   return options;
-}
-
-std::string numberText(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
 }
 
 /// Faces of a lit cube, each channel on its own, for emission E in every channel.

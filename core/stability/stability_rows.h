@@ -2,9 +2,9 @@
 #pragma once
 
 #include <array>
-#include <string>
 #include <vector>
 
+#include "base/text.h"
 #include "stability/lit_cube_truth.h"
 #include "stability/stability_cases.h"
 
@@ -25,8 +25,6 @@ void addEnds(Cases& cases);
 
 /// So many elements, all alike; the solver's error.
 SolveOptions evenMesh(std::uint64_t elements, double error);
-/// 0.5, 1e-30.
-std::string numberText(double value);
 /// The lit face, the opposite one and the others of a lit cube, each channel against the truth of its own
 /// reflectance times `emission`.
 std::vector<Figure> litCubeFigures(const Solve& solve, const std::array<const LitCubeTruth*, 3>& truth,
