@@ -206,7 +206,7 @@ std::shared_ptr<const ReferenceLight> loadedLight(const SessionState& state,
       referenceLight(snapshot.mesh, solution.radiosity, ply.filename().string()));
 }
 
-void buildLegend(const SessionState& state, const ViewOptions& view, int scene_width, float bottom) {
+void buildLegend(const SessionState& state, const ViewOptions& view, LowerEdge& edge) {
   if (!state.snapshot) return;
   const std::string light = lightText(state, view.light);
   const Quantity quantity = displayMode(view.display).quantity;
@@ -214,6 +214,10 @@ void buildLegend(const SessionState& state, const ViewOptions& view, int scene_w
   const bool colours = quantity == Quantity::kSides || quantity == Quantity::kNormals;
   if (light.empty() && !difference && !colours) return;
   const float em = ImGui::GetFontSize();
+  // Scales stand alone; beside the legend of false colours comes a line of text.
+  const float width =
+      ImGui::CalcTextSize(light.c_str()).x + 2 * ImGui::GetStyle().WindowPadding.x + 1.4f * em;
+  const float bottom = edge.aboveLeft(width);
   ImGui::SetNextWindowPos({0.7f * em, bottom - 0.7f * em}, ImGuiCond_Always, {0, 1});
   ImGui::SetNextWindowBgAlpha(0.85f);
   ImGui::Begin("legend", nullptr,
@@ -224,12 +228,13 @@ void buildLegend(const SessionState& state, const ViewOptions& view, int scene_w
     const bool fits = view.reference && view.reference->mesh->cut == state.snapshot->mesh->cut;
     differenceScale((light.empty() ? "all light" : light) + " \u2212 " +
                         (fits ? view.reference->name : "direct light alone"),
-                    "of its mean reflected light", static_cast<float>(scene_width));
+                    "of its mean reflected light", edge.scene_width);
   } else if (colours) {
     colourLegend(quantity);
   } else {
     ImGui::TextUnformatted(light.c_str());
   }
+  edge.left = bottom - 0.7f * em - ImGui::GetWindowHeight();
   ImGui::End();
 }
 

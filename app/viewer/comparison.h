@@ -8,6 +8,7 @@
 
 #include "render/scene_view.h"
 #include "session/session.h"
+#include "viewer/panels/lower_edge.h"
 
 namespace unshot {
 
@@ -29,8 +30,8 @@ std::string bounceWaitText(const SessionState& state);
 /// are parts.
 void differenceScale(const std::string& title, const char* unit, float room);
 
-/// The legend of the display mode `difference`, and a line on the part of the light that is shown, above y =
-/// `bottom`; nothing for a picture of all light.
-void buildLegend(const SessionState& state, const ViewOptions& view, int scene_width, float bottom);
+/// The legend of the display mode `difference`, and a line on the part of the light that is shown, at the
+/// scene's lower left; nothing for a picture of all light.
+void buildLegend(const SessionState& state, const ViewOptions& view, LowerEdge& edge);
 
 }  // namespace unshot

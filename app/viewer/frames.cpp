@@ -157,14 +157,18 @@ bool Viewer::draw(GLuint framebuffer, int width, int height) {
   if (!captures_.empty() && gui_frames_ == 0) drawForCapture(width, height);
   ImGui::NewFrame();
   navigate(seconds);
-  buildSidePanel(*this, width - beside.panel);
-  const float bottom = static_cast<float>(height) - buildStatusLine(*this, scene_width_);
-  buildLegend(*state_, ui_.settings.view, scene_width_, bottom);
-  buildFalseColourLegend(*this, scene_width_, bottom);
-  buildReferencePicture(*this, scene_width_, bottom);
-  buildLectureMarks(*this, scene_width_);
-  buildLecture(*this, scene_width_, beside.lecture);
-  buildHemicube(*this, scene_width_, bottom);
+  float bottom = static_cast<float>(height);
+  if (!ui_.clean) {
+    buildSidePanel(*this, width - beside.panel);
+    bottom -= buildStatusLine(*this, scene_width_);
+    LowerEdge edge{bottom, bottom, 0, static_cast<float>(scene_width_)};
+    buildFalseColourLegend(*this, edge);
+    buildLegend(*state_, ui_.settings.view, edge);
+    buildReferencePicture(*this, scene_width_, bottom);
+    buildLectureMarks(*this, scene_width_);
+    buildLecture(*this, scene_width_, beside.lecture);
+    buildHemicube(*this, edge);
+  }
   buildOverlays(*this, scene_width_, bottom, notice_, scene_.framing() || frame_wanted_);
   ImGui::Render();
 

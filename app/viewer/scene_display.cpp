@@ -217,9 +217,11 @@ bool SceneDisplay::drawPieces(const LinearTarget& target, const Wanted& wanted, 
 
 void SceneDisplay::expose() {
   const Wanted& wanted = making_->wanted;
-  // A part of the light keeps the exposure of the whole, so that the eye sees what is missing.
-  const bool follow = !wanted.settings.exposure_locked && wanted.settings.view.light.all();
-  if (drawn_ && drawn_->settings.view.display != wanted.settings.view.display) snap_ = true;
+  // A part of the light keeps the exposure of the whole, so that the eye sees what is missing; if it has one.
+  const bool whole = wanted.settings.view.light.all();
+  const bool follow = !wanted.settings.exposure_locked && (whole || exposed_for_part_);
+  if (exposed_display_ != wanted.settings.view.display) snap_ = true;
+  exposed_display_ = wanted.settings.view.display;
   gliding_ = false;
   if (const auto& given = wanted.settings.view.automatic_exposure) {
     exposure_ = *given;
@@ -229,6 +231,7 @@ void SceneDisplay::expose() {
       metered_ = metering ? SceneView::meter(smallCopy(), viewOf(wanted)) : 1;
     }
     exposure_ = nextExposure(*metered_, glide_seconds_);
+    exposed_for_part_ = !whole;
   }
   histogram_.reset();
   if (wanted.settings.histogram) histogram_ = luminanceHistogram(smallCopy());

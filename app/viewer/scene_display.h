@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "render/automatic_camera.h"
@@ -135,6 +136,8 @@ class SceneDisplay {
   std::size_t band_piece_ = 0;
   double exposure_ = 1, glide_seconds_ = 0;
   bool gliding_ = false, snap_ = true;
+  std::string exposed_display_;    // exposure_ is for this display
+  bool exposed_for_part_ = false;  // and from a part of the light
 };
 
 }  // namespace unshot

@@ -79,10 +79,11 @@ bool Teaching::follow(Session& session, const SessionState& state, std::uint32_t
   }
   if (!hemicube) return news;
   const Insight* known = insight();
-  if (picked_ != kNone) {
+  const bool stepped = !running_ && known && known->shot && known->shot->patch != kNone;
+  const bool told = stepped && choices.lecture && choices.page == LecturePage::kShots;
+  if (picked_ != kNone && !told) {
     stands_on_ = picked_;
   } else if (known) {
-    const bool stepped = !running_ && known->shot && known->shot->patch != kNone;
     stands_on_ = stepped ? known->shot->patch : known->next;
   }
   if (stands_on_ != kNone && stands_on_ < snapshot_->mesh->patch_count) lookFrom(stands_on_, running_);

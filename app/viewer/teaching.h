@@ -66,7 +66,7 @@ class Teaching {
   const PatchInsight* patch() const { return insight() ? insight()->patch.get() : nullptr; }
   /// The patch that the hemicube stands on; kNone: there is none. Whether it was picked.
   std::uint32_t hemicubePatch() const { return stands_on_; }
-  bool hemicubeIsPicked() const { return picked_ != kNone; }
+  bool hemicubeIsPicked() const { return picked_ != kNone && stands_on_ == picked_; }
   /// The newest look from it; null where there is none yet.
   const HemicubeLook* look() const { return look_ && look_->patch == stands_on_ ? look_.get() : nullptr; }
   const std::vector<double>& shares() const { return shares_; }  ///< of look()

@@ -70,6 +70,7 @@ struct ViewerState {
   DisplaySettings settings;
   bool panel = true;
   bool status = true;  ///< with the panel: the line at the bottom of the scene
+  bool clean = false;  ///< nothing but the scene, whatever else is on
   bool help = false;
   bool notes = false;      ///< those on the scene, in full
   bool left_out = false;   ///< what the solve leaves out, in full

@@ -12,6 +12,7 @@
 #include "mesh/display.h"
 #include "mesh/grid.h"
 #include "mesh/lit.h"
+#include "mesh/near_emitters.h"
 #include "mesh/numbering.h"
 #include "mesh/reach.h"
 #include "mesh/weld.h"
@@ -327,8 +328,9 @@ Mesh meshSurfaces(SurfacesOfScene surfaces, const MeshOptions& options, const Ca
     gridForCount(mesh, static_cast<double>(*options.elements), options.paired_cells, contacts, tolerance,
                  cancel);
   } else if (!mesh.sides.empty()) {
-    gridAll(mesh, std::vector<double>(mesh.surfaces.size(), size), options.paired_cells, contacts, tolerance,
-            cancel);
+    std::vector<double> sizes(mesh.surfaces.size(), size);
+    if (!options.element_size) refineNearEmitters(mesh, sizes, cancel);
+    gridAll(mesh, sizes, options.paired_cells, contacts, tolerance, cancel);
   }
   numberElements(mesh, cancel);
   makeDisplay(mesh, cancel);

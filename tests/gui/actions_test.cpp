@@ -71,6 +71,7 @@ const std::map<std::string_view, std::string>& validArguments() {
       {"step", "2"},
       {"browse", kScenes},
       {"actions", "bounces 2"},
+      {"clean", "on"},
       {"watch", "on"},
       {"mode", "jacobi"},
       {"race", "southwell"},

@@ -160,6 +160,14 @@ TEST(Hemicube, FollowsThePatchThatShootsAndTheOneThatIsPicked) {
     return teaching.hemicubeIsPicked() && teaching.look() &&
            teaching.look()->patch == live->picking().required().pick.patch;
   }));
+  // Beside the shot that the lecture tells of stands its own.
+  live->perform("lecture-page", "shots");
+  ASSERT_TRUE(live.until([&] {
+    return !teaching.hemicubeIsPicked() && teaching.look() &&
+           teaching.look()->patch == teaching.insight()->shot->patch;
+  }));
+  live->perform("lecture", "off");
+  ASSERT_TRUE(live.until([&] { return teaching.hemicubeIsPicked(); }));
   live->perform("unpick");
   ASSERT_TRUE(live.until([&] { return !teaching.hemicubeIsPicked(); }));
 }

@@ -133,6 +133,29 @@ TEST_F(SceneDisplays, ASnapshotHalfUploadedIsNeverShown) {
   EXPECT_EQ(display.exposure(), fresh.exposure());
 }
 
+// Whatever was shown before, and though a solve that began anew came in between.
+TEST_F(SceneDisplays, APartOfTheLightIsExposedForItsOwnDisplay) {
+  const auto direct = [&](float light) {
+    auto snapshot = std::make_shared<Snapshot>(*snapshot_);
+    snapshot->direct =
+        std::make_shared<const std::vector<glm::vec3>>(snapshot->irradiance.size(), glm::vec3(light));
+    return snapshot;
+  };
+  const auto shown = [&](SceneDisplay& display, const std::shared_ptr<const Snapshot>& snapshot) {
+    display.setSnapshot(snapshot);
+    display.draw(wanted_, -1, SceneDisplay::kAtOnce);
+    return display.exposure();
+  };
+  SceneDisplay fresh(*context_), used(*context_);
+  wanted_.settings.view.display = "residual";
+  shown(used, direct(1));
+  wanted_.settings.view.display = "false-irradiance";
+  wanted_.settings.view.light.indirect = false;
+  shown(used, direct(1e-5f));  // nearly nothing is shot yet
+  const auto later = direct(1);
+  EXPECT_EQ(shown(used, later), shown(fresh, later));
+}
+
 TEST_F(SceneDisplays, AnotherExposureDrawsNothingAnew) {
   SceneDisplay display(*context_);
   display.setSnapshot(snapshot_);

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "render/display_modes.h"
 #include "support/temp_folder.h"
+#include "viewer/teaching.h"
 
 namespace unshot {
 namespace {
@@ -93,11 +94,17 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"wait seconds nan", "needs a number"}, Refused{"wait seconds 1s", "needs a number"},
         Refused{"wait converged 3", "takes no number"}, Refused{"wait shots 3 4", "says too much"}));
 
-TEST(Script, TheGalleryShowsEveryDisplayMode) {
-  std::set<std::string> shown;
+TEST(Script, TheGalleryShowsEveryDisplayModeAndPageOfTheLecture) {
+  std::set<std::string> shown, pages;
+  bool hemicube = false;
   for (const ScriptLine& line : readScript(std::string(UNSHOT_SOURCE_DIR) + "/docs/gallery.script")) {
     if (line.action == "display") shown.insert(line.argument);
+    if (line.action == "lecture-page") pages.insert(line.argument);
+    hemicube = hemicube || (line.action == "hemicube-view" && line.argument == "on");
   }
+  EXPECT_TRUE(hemicube);
+  for (const LecturePageRow& row : lecturePages())
+    EXPECT_TRUE(pages.contains(std::string(row.info.key))) << row.info.key;
   for (const DisplayMode& mode : displayModes())
     EXPECT_TRUE(shown.contains(std::string(mode.info.key))) << mode.info.key;
 }

@@ -95,15 +95,13 @@ void falseColourChoices(Viewer& viewer) {
   tooltip("Three decades, instead of from 0 on");
 }
 
-void buildFalseColourLegend(const Viewer& viewer, int scene_width, float bottom) {
+void buildFalseColourLegend(const Viewer& viewer, LowerEdge& edge) {
   const ViewOptions& view = viewer.settings().view;
   if (!viewer.shownSnapshot() || !isShown(view)) return;
   const double top = 1 / (viewer.exposure() * std::exp2(view.exposure_ev));
-  const float em = ImGui::GetFontSize(),
-              width = std::min(kBarWidth * em, static_cast<float>(scene_width) - 6 * em);
+  const float em = ImGui::GetFontSize(), width = std::min(kBarWidth * em, edge.scene_width - 6 * em);
   if (!(width > 4 * em)) return;
-  ImGui::SetNextWindowPos({static_cast<float>(scene_width) - 0.7f * em, bottom - 0.7f * em}, ImGuiCond_Always,
-                          {1, 1});
+  ImGui::SetNextWindowPos({edge.scene_width - 0.7f * em, edge.right - 0.7f * em}, ImGuiCond_Always, {1, 1});
   ImGui::SetNextWindowBgAlpha(0.85f);
   ImGui::Begin("false colours", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
@@ -123,6 +121,8 @@ void buildFalseColourLegend(const Viewer& viewer, int scene_width, float bottom)
   }
   ticks(how, top, at, width, height);
   ImGui::Dummy({width + 2 * em, 1.4f * height + em});
+  edge.right_width = ImGui::GetWindowWidth() + 0.7f * em;
+  edge.right -= ImGui::GetWindowHeight() + 0.7f * em;
   ImGui::End();
 }
 

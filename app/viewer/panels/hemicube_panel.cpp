@@ -12,11 +12,10 @@
 namespace unshot {
 namespace {
 
-constexpr float kSide = 17;                            // of the cross, in letters' heights
-constexpr float kLines = 10.5f;                        // of text beside it, the same
-constexpr float kLeast = 5;                            // of the cross, or there is no room for it
-constexpr float kMostShare = 0.45f;                    // of the window's height that it takes
-constexpr float kLegendWidth = 26, kLegendHeight = 6;  // of the legend of false colours, in letters' heights
+constexpr float kSide = 17;          // of the cross, in letters' heights
+constexpr float kLines = 10.5f;      // of text beside it, the same
+constexpr float kLeast = 5;          // of the cross, or there is no room for it
+constexpr float kMostShare = 0.45f;  // of the scene's height that it takes
 
 ImTextureID textureId(const gl::Texture& texture) {
   return reinterpret_cast<ImTextureID>(std::uintptr_t{texture.id()});
@@ -120,17 +119,14 @@ void hemicubeContent(Viewer& viewer, float side) {
   teaching.markPatch(patch, true);
 }
 
-void buildHemicube(Viewer& viewer, int scene_width, float bottom) {
+void buildHemicube(Viewer& viewer, const LowerEdge& edge) {
   if (!viewer.teaching().choices.hemicube || lectureShowsHemicube(viewer)) return;
-  const float em = ImGui::GetFontSize(), height = bottom;
-  // Above the legend of false colours where they have no room beside each other.
-  const bool legend = displayMode(viewer.settings().view.display).false_colour &&
-                      static_cast<float>(scene_width) < (kSide + kLegendWidth) * em;
-  const float under = legend ? kLegendHeight * em : 0.7f * em;
-  const float room = std::min(static_cast<float>(scene_width) - 4 * em, height - under - kLines * em);
-  const float side = std::floor(std::min({kSide * em, room, kMostShare * height}));
+  const float em = ImGui::GetFontSize(), gap = 0.7f * em;
+  const float bottom = edge.aboveLeft((kSide + 3) * em);
+  const float room = std::min(edge.scene_width - 4 * em, bottom - gap - kLines * em);
+  const float side = std::floor(std::min({kSide * em, room, kMostShare * std::min(edge.left, edge.right)}));
   if (side < kLeast * em) return;
-  ImGui::SetNextWindowPos({0.7f * em, height - under}, ImGuiCond_Always, {0, 1});
+  ImGui::SetNextWindowPos({gap, bottom - gap}, ImGuiCond_Always, {0, 1});
   ImGui::SetNextWindowBgAlpha(0.94f);
   ImGui::Begin("hemicube", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |

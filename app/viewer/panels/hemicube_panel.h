@@ -1,12 +1,13 @@
 // The hemicube of a patch as the five faces that every lecture draws, live.
 #pragma once
 
+#include "viewer/panels/lower_edge.h"
 #include "viewer/viewer.h"
 
 namespace unshot {
 
-/// Its window over the scene at the lower left, where it is open.
-void buildHemicube(Viewer& viewer, int scene_width, float bottom);
+/// Its window over the scene at the lower left, where it is open and finds room.
+void buildHemicube(Viewer& viewer, const LowerEdge& edge);
 
 /// The part of the panel that opens it and the lecture.
 void teachingSection(Viewer& viewer);

@@ -68,6 +68,7 @@ bool lectureShowsHemicube(const Viewer& viewer) {
 }
 
 BesideScene besideScene(const Viewer& viewer, int width) {
+  if (viewer.ui().clean) return {0, 0};
   const double scale = viewer.scale();
   const int panel = panelWidth(viewer.ui(), scale, width);
   if (!viewer.teaching().choices.lecture) return {panel, 0};

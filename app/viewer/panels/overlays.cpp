@@ -81,8 +81,10 @@ void buildOverlays(Viewer& viewer, int scene_width, float bottom, const std::str
   const float height = ImGui::GetIO().DisplaySize.y;
   const float middle = static_cast<float>(scene_width) / 2;
   const SessionState& state = viewer.state();
-  buildMarks(viewer, scene_width);
-  buildRaceLabels(viewer, scene_width);
+  if (!viewer.ui().clean) {
+    buildMarks(viewer, scene_width);
+    buildRaceLabels(viewer, scene_width);
+  }
   if (state.phase == SessionPhase::kLoading) {
     loadingWindow(viewer, middle);
   } else if (framing && state.facts) {
