@@ -25,7 +25,7 @@ LiveViewer::Options cornellBox(const std::string& script = {}) {
   options.solve.error = 0.1;
   options.script = script;
   options.width = 700;
-  options.height = 1600;  // all of the panel is in it: what is not cannot be clicked
+  options.height = 1900;  // all of the panel is in it: what is not cannot be clicked
   return options;
 }
 

@@ -95,7 +95,7 @@ TEST(WindowScript, EveryDisplayModeShowsAPictureOfItsOwn) {
 class PanelChoices : public testing::Test {
  protected:
   static constexpr int kWidth = 900, kPanel = 304, kLeft = kWidth - kPanel;
-  static constexpr int kScene = 21, kMode = 125, kMethod = 177, kShow = 577;
+  static constexpr int kScene = 21, kMode = 125, kMethod = 177, kShow = 551;
 
   void click(int x, int y) {
     xdotool("mousemove --window " + run_.window() + " " + std::to_string(x) + " " + std::to_string(y) +

@@ -159,9 +159,21 @@ void solveSection(Viewer& viewer) {
       shownChoice(formFactorMethods(), options.form_factors, state.facts ? state.facts->form_factors : ""),
       "Closed form where nothing can occlude, else hemicubes");
   if (!method.empty()) viewer.perform("form-factors", method);
-  chooseElements(viewer);
   chooseHemicube(viewer);
   chooseError(viewer);
+}
+
+void meshSection(Viewer& viewer) {
+  if (!section("Mesh")) return;
+  chooseElements(viewer);
+  const SessionState& state = viewer.state();
+  if (!state.facts || !state.snapshot) return;
+  line("Patches, elements", countText(state.facts->patches) + ", " + countText(state.facts->elements),
+       "Patches shoot, elements receive; both count lit sides only");
+  line("Element size", figureText(state.snapshot->mesh->element_size) + " m",
+       "Edge of a full cell aimed at; cells beside borders, contacts and small lamps are smaller");
+  line("Surfaces", countText(state.facts->surfaces),
+       "Polygons of one material in one plane are one surface where they join");
 }
 
 void figuresSection(Viewer& viewer) {
@@ -171,7 +183,6 @@ void figuresSection(Viewer& viewer) {
     ImGui::TextDisabled("nothing yet");
     return;
   }
-  const SolveFacts& facts = *state.facts;
   const Rates rates = viewer.rates();
   const bool running = state.phase == SessionPhase::kRunning;
   line("Shots",
@@ -206,8 +217,6 @@ void figuresSection(Viewer& viewer) {
          "then each "
          "is split as it should be, and what it has shot is corrected");
   }
-  line("Patches, elements", countText(facts.patches) + ", " + countText(facts.elements),
-       "Patches shoot, elements receive; both count lit sides only");
   line("Time", durationText(state.measures.seconds) + ", CPU " + durationText(state.measures.cpu_seconds),
        "Of the solve; CPU of the whole program since meshing began");
   line("Form factors kept", memoryText(static_cast<double>(state.kept_bytes)),
@@ -251,7 +260,9 @@ void buildSidePanel(Viewer& viewer, int left) {
   errorsSection(viewer);
   convergenceSection(viewer);
   displaySection(viewer);
+  meshSection(viewer);
   cameraSection(viewer);
+  sceneSection(viewer);
   materialsSection(viewer);
   bouncesSection(viewer);
   teachingSection(viewer);

@@ -1,7 +1,10 @@
 #include "viewer/panels/scene_panel.h"
 
 #include <algorithm>
+#include <array>
 
+#include "base/text.h"
+#include "scene/sky.h"
 #include "viewer/panels/widgets.h"
 #include "viewer/viewer.h"
 
@@ -38,7 +41,47 @@ void sceneRows(Viewer& viewer) {
   tooltip("Ctrl+O: looks for an OBJ file. Or drop one on the window");
 }
 
+void chooseSky(Viewer& viewer) {
+  struct Choice {
+    const char *key, *title;
+  };
+  static constexpr std::array<Choice, 4> kChoices = {{{"auto", "where no face emits"},
+                                                      {"0,0,0", "none"},
+                                                      {"1,1,1", "white, 1 W/m\u00b2"},
+                                                      {"0.6,0.8,1", "blue, 0.6, 0.8, 1 W/m\u00b2"}}};
+  label("Sky",
+        "Uniform radiosity of what lies around the scene [W/m\u00b2]; the action sky takes any. Another one "
+        "solves again from the start");
+  const auto isChosen = [&](const Choice& c) { return parseSky(c.key) == viewer.ui().options.sky; };
+  const auto chosen = std::find_if(kChoices.begin(), kChoices.end(), isChosen);
+  const auto& own = viewer.ui().options.sky;
+  const std::string shown = chosen != kChoices.end() ? chosen->title
+                                                     : figureText(own->x) + ", " + figureText(own->y) + ", " +
+                                                           figureText(own->z) + " W/m\u00b2";
+  if (!beginCombo("##sky", shown)) return;
+  for (const Choice& choice : kChoices) {
+    if (ImGui::Selectable(choice.title, isChosen(choice))) viewer.perform("sky", choice.key);
+  }
+  ImGui::EndCombo();
+}
+
 }  // namespace
+
+void sceneSection(Viewer& viewer) {
+  if (!section("Scene")) return;
+  const SessionState& state = viewer.state();
+  if (!state.facts || !state.snapshot) {
+    ImGui::TextDisabled("nothing yet");
+    return;
+  }
+  const Mesh& mesh = *state.snapshot->mesh;
+  line("Triangles", countText(state.facts->triangles),
+       "Of the file's faces; those without area are left out");
+  line("Materials", countText(mesh.materials.size()), "Of the MTL files");
+  line("Extent", extentText(mesh.bounds_max - mesh.bounds_min) + " m",
+       "Along x, y and z; OBJ files are in metres");
+  chooseSky(viewer);
+}
 
 void chooseScene(Viewer& viewer) {
   const SessionState& state = viewer.state();

@@ -7,4 +7,7 @@ class Viewer;
 
 void chooseScene(Viewer& viewer);
 
+/// What the scene is, and the sky around it.
+void sceneSection(Viewer& viewer);
+
 }  // namespace unshot
