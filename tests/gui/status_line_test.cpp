@@ -6,7 +6,9 @@
 
 #include <set>
 
+#include "base/text.h"
 #include "support/live_viewer.h"
+#include "viewer/panels/error_panel.h"
 
 namespace unshot {
 namespace {
@@ -78,6 +80,21 @@ TEST(StatusLine, NothingMovesWhileFiguresChange) {
   // Phase, unshot light, error, rows, frame, mode, renderer.
   EXPECT_LE(seen.size(), 7u) << testing::PrintToString(seen);
   EXPECT_GE(seen.size(), 6u) << testing::PrintToString(seen);
+}
+
+TEST(StatusLine, SaysNothingOfAnErrorOfWhichNothingIsKnown) {
+  LiveViewer::Options options = box(1280, 720);
+  options.script = "pause on\nstep\nwait shots 1\n";
+  LiveViewer viewer(options);
+  ASSERT_TRUE(viewer.until([&] { return viewer->scriptDone(); }));
+  viewer.draw();
+  ASSERT_TRUE(status());
+  ASSERT_EQ(knownError(viewer->state()), "");
+  EXPECT_EQ(errorInFront(viewer->state()), percentText(viewer->state().measures.unshot_fraction) + " unshot");
+  std::set<int> parts;
+  addParts(*status(), parts);
+  EXPECT_LE(parts.size(), 5u);  // phase, unshot light, frame, mode, renderer
+  EXPECT_GE(parts.size(), 4u);
 }
 
 TEST(StatusLine, LeavesTheLastOutWhereItIsNarrow) {

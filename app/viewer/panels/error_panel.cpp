@@ -58,12 +58,17 @@ std::string solverText(const Measures& m) {
                                      : truth + ", no bound yet";
 }
 
-std::string errorInFront(const LaneState& state) {
+std::string knownError(const LaneState& state) {
   if (state.estimates.total.places > 0) return "error about " + percentText(state.estimates.total.value);
   const double bound = state.measures.solverBound();
-  if (bound >= kMostShown) return percentText(state.measures.unshot_fraction) + " unshot";
+  if (bound >= kMostShown) return {};
   if (state.estimates.both.places == 0) return "error below " + percentText(bound);
   return "error about " + percentText(bound + state.estimates.both.value);
+}
+
+std::string errorInFront(const LaneState& state) {
+  const std::string known = knownError(state);
+  return known.empty() ? percentText(state.measures.unshot_fraction) + " unshot" : known;
 }
 
 void errorsSection(Viewer& viewer) {
