@@ -204,10 +204,10 @@ void equationPage(Viewer& viewer) {
 }
 
 void shotsPage(Viewer& viewer) {
+  ImGui::BeginDisabled(!viewer.solveGoesOn());
   if (ImGui::Button("Step")) viewer.perform("step");
   tooltip("N: the patch chosen next shoots, then the solve pauses");
   const bool paused = viewer.state().phase == SessionPhase::kPaused;
-  ImGui::BeginDisabled(!paused && viewer.state().phase != SessionPhase::kRunning);
   if (buttonBeside(paused ? "Resume" : "Pause")) viewer.perform("pause");
   tooltip("Space");
   ImGui::EndDisabled();
