@@ -90,6 +90,10 @@ TEST(MatrixSeries, OfAMatrixThatIsKnown) {
   MatrixSeries growing({0, 1.2, 1.2, 0}, 2);
   EXPECT_NEAR(growing.radius(), 1.2, 1e-4);
   EXPECT_GT(growing.norm(20), growing.norm(10));
+  EXPECT_EQ(series.terms(), SeriesTerms::kShrink);
+  EXPECT_EQ(growing.terms(), SeriesTerms::kGrow);
+  EXPECT_EQ(MatrixSeries({0, 1, 1, 0}, 2).terms(), SeriesTerms::kStay);
+  EXPECT_EQ(MatrixSeries({0.5, 0.5, 0.25, 0.75}, 2).terms(), SeriesTerms::kStay);
 }
 
 // 500 elements are about a hundred patches, twice as many as groups. Gathering counts the patches of a group

@@ -181,11 +181,11 @@ void chooseReflectance(Viewer& viewer) {
   }
 }
 
-/// Bars of the norms of M^k, logarithmic; red where the terms grow.
+/// Bars of the norms of M^k, logarithmic; red where the series has no sum.
 void terms(Viewer& viewer) {
   Teaching& teaching = viewer.teaching();
   MatrixSeries& series = teaching.series();
-  const bool grows = series.radius() >= 1;
+  const bool endless = series.terms() != SeriesTerms::kShrink;
   const float em = ImGui::GetFontSize(), height = kBars * em,
               width = std::floor(ImGui::GetContentRegionAvail().x);
   ImGui::TextUnformatted("Size of the terms M^k");
@@ -201,7 +201,7 @@ void terms(Viewer& viewer) {
     const double size = series.norm(k);
     const double share = size > 0 ? std::clamp(1 + (std::log10(size) - top) / decades, 0.0, 1.0) : 0;
     const float x = at.x + slot * static_cast<float>(k);
-    const ImVec4 colour = grows ? kRed : ImGui::GetStyleColorVec4(ImGuiCol_PlotHistogram);
+    const ImVec4 colour = endless ? kRed : ImGui::GetStyleColorVec4(ImGuiCol_PlotHistogram);
     const bool lit = !teaching.choices.sums ? k == teaching.choices.power : k <= teaching.choices.power;
     list.AddRectFilled({x, at.y + height * static_cast<float>(1 - share)}, {x + slot - 2, at.y + height},
                        ImGui::GetColorU32({colour.x, colour.y, colour.z, lit ? 1.0f : 0.45f}));
@@ -218,15 +218,26 @@ void terms(Viewer& viewer) {
   if (ImGui::IsItemClicked()) viewer.perform("matrix-power", std::to_string(k));
 }
 
+std::string_view termsText(SeriesTerms terms) {
+  switch (terms) {
+    case SeriesTerms::kGrow:
+      return ". Each bounce adds more than the one before: the series has no sum, for where nothing is "
+             "absorbed light never ends";
+    case SeriesTerms::kStay:
+      return ". Each bounce adds as much as the one before and the sum grows without end, for where nothing "
+             "is absorbed light never ends";
+    case SeriesTerms::kShrink:
+      break;
+  }
+  return ": what each further bounce leaves of the light, in the long run";
+}
+
 void radiusLine(Viewer& viewer) {
-  const double radius = viewer.teaching().series().radius();
-  const bool grows = radius >= 1;
-  if (grows) ImGui::PushStyleColor(ImGuiCol_Text, kRed);
-  wrapped("Spectral radius of M: " + figureText(radius) +
-          (grows ? ". Each bounce adds more than the one before: the series has no sum, for where nothing is "
-                   "absorbed light never ends"
-                 : ": what each further bounce leaves of the light, in the long run"));
-  if (grows) ImGui::PopStyleColor();
+  const MatrixSeries& series = viewer.teaching().series();
+  const bool endless = series.terms() != SeriesTerms::kShrink;
+  if (endless) ImGui::PushStyleColor(ImGuiCol_Text, kRed);
+  wrapped("Spectral radius of M: " + figureText(series.radius()) + std::string(termsText(series.terms())));
+  if (endless) ImGui::PopStyleColor();
 }
 
 /// How near the partial sum is to what the solve has.
@@ -244,7 +255,8 @@ void lightLine(Viewer& viewer) {
   }
   if (!(all > 0)) return;
   wrapped("B = (" + termText(teaching.choices.power, true) + ") E: " + percentText(sum / all) +
-          " of the power of the solve's B");
+          " of the power of " +
+          (viewer.state().phase == SessionPhase::kConverged ? "the solve's B" : "what is shot so far"));
   tooltip(
       "\u2211 A B over the groups. At the end it misses the solve's by as much as gathering costs: within a "
       "group all patches count as equally bright");
