@@ -72,11 +72,11 @@ void cellTip(Viewer& viewer, const std::vector<double>& values, const std::strin
   const Mesh& mesh = *viewer.state().snapshot->mesh;
   const int channel = teaching.choices.channel;
   std::string text = "from j: " + groupText(m, mesh, j) + "\nto i: " + groupText(m, mesh, i) + "\n";
-  text += name + " there: " + figureText(values[i * m.size() + j]);
+  text += name + " there: " + channelText(values[i * m.size() + j]);
   const double r =
       teaching.choices.allow_divergence ? teaching.choices.reflectance : m.groups[i].reflectance[channel];
-  text += "\nR_i = " + figureText(r) + ", F_ij = " + figureText(m.factor(i, j)) + ", R_i F_ij = " +
-          figureText(teaching.choices.allow_divergence ? r * m.factor(i, j) : m.at(i, j)[channel]);
+  text += "\nR_i = " + channelText(r) + ", F_ij = " + channelText(m.factor(i, j)) + ", R_i F_ij = " +
+          channelText(teaching.choices.allow_divergence ? r * m.factor(i, j) : m.at(i, j)[channel]);
   if (!m.groups[j].sends) text += "\nj holds no light: what it would send was not computed";
   tooltip(text);
   teaching.markGroup(static_cast<std::uint32_t>(j), true);
@@ -122,7 +122,7 @@ void legend(double most, float width) {
                        {at.x + width * static_cast<float>(k + 1) / kParts, at.y + height},
                        heatColour(value, most));
   }
-  const std::string low = figureText(most * std::pow(10.0, -kDecades)), high = figureText(most);
+  const std::string low = channelText(most * std::pow(10.0, -kDecades)), high = channelText(most);
   const ImU32 text = ImGui::GetColorU32(ImGuiCol_TextDisabled);
   list.AddText({at.x, at.y + 1.15f * height}, text, low.c_str());
   list.AddText({at.x + width - ImGui::CalcTextSize(high.c_str()).x, at.y + 1.15f * height}, text,
@@ -214,7 +214,7 @@ void terms(Viewer& viewer) {
   if (!ImGui::IsItemHovered()) return;
   const float place = (ImGui::GetMousePos().x - at.x) / slot;
   const auto k = std::min(kTermsShown, static_cast<std::size_t>(std::max(0.0f, place)));
-  tooltip(termText(k, false) + ": " + figureText(series.norm(k)));
+  tooltip(termText(k, false) + ": " + channelText(series.norm(k)));
   if (ImGui::IsItemClicked()) viewer.perform("matrix-power", std::to_string(k));
 }
 

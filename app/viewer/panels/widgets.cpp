@@ -60,6 +60,16 @@ float channelWidth() {
   return std::max(ImGui::CalcTextSize("-0.00123").x, ImGui::CalcTextSize("-1.2e-12").x);
 }
 
+void rightAligned(const std::string& text, bool dim) {
+  const float space = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+  if (space > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + space);
+  if (dim) {
+    ImGui::TextDisabled("%s", text.c_str());
+  } else {
+    ImGui::TextUnformatted(text.c_str());
+  }
+}
+
 void wrapped(const std::string& text) {
   ImGui::PushTextWrapPos(0);
   ImGui::TextUnformatted(text.c_str());

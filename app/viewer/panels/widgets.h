@@ -28,6 +28,9 @@ void line(const char* name, const std::string& value, std::string_view tip = {})
 std::string channelText(double value);
 float channelWidth();
 
+/// Text at the right end of the room there is, such as a cell of a table.
+void rightAligned(const std::string& text, bool dim = false);
+
 /// Text over as many lines as it takes.
 void wrapped(const std::string& text);
 void dimmed(const std::string& text);
