@@ -127,6 +127,7 @@ void convergenceSection(Viewer& viewer) {
   const PlotAxis axis = viewer.ui().plot_axis;
   const Curves curves = curvesOf(state, axis), rival = state.rival ? curvesOf(*state.rival, axis) : Curves{};
   PlotStyle style;
+  style.name = "unshot";
   style.x_unit = axis == PlotAxis::kSeconds ? "s" : "";
   style.goal = state.facts ? state.facts->solver_target : viewer.ui().options.error;
   style.height = 9 * ImGui::GetFontSize();
