@@ -97,6 +97,27 @@ TEST(StatusLine, SaysNothingOfAnErrorOfWhichNothingIsKnown) {
   EXPECT_GE(parts.size(), 4u);
 }
 
+// The estimate of an error below what noise hides is 0, and its interval goes up from there.
+TEST(ErrorInFront, IsNeverZeroWhereNoiseHidesIt) {
+  LaneState state;
+  state.measures.unshot_fraction = 0.25;
+  EXPECT_EQ(errorInFront(state), "25 % unshot");
+  state.measures.bounds.upper = 0.02;
+  EXPECT_EQ(errorInFront(state), "error below 2 %");
+  state.estimates.both = {0, 0, 0.1, 100};
+  EXPECT_EQ(errorInFront(state), "error up to 12 %");
+  state.estimates.both.value = 0.05;
+  EXPECT_EQ(errorInFront(state), "error about 7 %");
+  state.estimates.total = {0.0597, 0, 0.169, 100};
+  EXPECT_EQ(errorInFront(state), "error about 5.97 %");
+  for (const double value : {0.0, 1e-5}) {
+    state.estimates.total.value = value;
+    EXPECT_EQ(errorInFront(state), "error up to 16.9 %");
+  }
+  state.estimates.total = {0, 0, 0, 100};
+  EXPECT_EQ(errorInFront(state), "error about 0 %") << "nothing is reflected";
+}
+
 TEST(StatusLine, LeavesTheLastOutWhereItIsNarrow) {
   LiveViewer viewer(box(640, 360));
   ASSERT_TRUE(viewer.untilPhase(SessionPhase::kConverged));

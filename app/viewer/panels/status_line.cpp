@@ -49,7 +49,8 @@ std::array<Part, 6> partsOf(const Viewer& viewer) {
        "Light that is emitted or reflected but not yet shot: sum A |U| / sum A E over patches and channels"},
       {solving ? knownError(state) : nothing, "error about 0.0012 %",
        "How wrong the reflected light still is (RMS error over RMS light); \"below\" is a proven bound of "
-       "the solver's error, \"about\" an estimate of all of it"},
+       "the solver's error, \"about\" an estimate of all of it, \"up to\" the upper end of one that noise "
+       "hides"},
       {running ? countText(rows) + " rows/s" : nothing, "00,000 rows/s",
        "Columns and rows of form factors computed a second"},
       {frameText(viewer.frameMilliseconds()), "000.0 ms",
