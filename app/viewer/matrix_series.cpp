@@ -1,12 +1,14 @@
 #include "viewer/matrix_series.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace unshot {
 namespace {
 
 constexpr int kIterations = 600;
+constexpr double kStays = 1e-9;  // so near a radius of 1 terms stay as they are
 
 }  // namespace
 
@@ -33,6 +35,11 @@ std::vector<double> MatrixSeries::times(const std::vector<double>& x) const {
     for (std::size_t j = 0; j < size_; ++j) out[i] += powers_[1][i * size_ + j] * x[j];
   }
   return out;
+}
+
+SeriesTerms MatrixSeries::terms() const {
+  if (std::abs(radius_ - 1) <= kStays) return SeriesTerms::kStay;
+  return radius_ > 1 ? SeriesTerms::kGrow : SeriesTerms::kShrink;
 }
 
 const std::vector<double>& MatrixSeries::power(std::size_t k) {

@@ -6,6 +6,8 @@
 
 namespace unshot {
 
+enum class SeriesTerms { kShrink, kStay, kGrow };
+
 /// A square matrix, row by row, no entry below 0.
 class MatrixSeries {
  public:
@@ -25,6 +27,8 @@ class MatrixSeries {
   std::vector<double> light(const std::vector<double>& e, std::size_t k) const;
   /// The spectral radius of M by power iteration with M + I, which does not swing; to about 1e-4.
   double radius() const { return radius_; }
+  /// Whether the terms M^k shrink, stay as they are (a radius of 1 within 1e-9) or grow, in the long run.
+  SeriesTerms terms() const;
 
  private:
   std::vector<double> times(const std::vector<double>& x) const;

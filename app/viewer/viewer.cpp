@@ -269,6 +269,19 @@ void Viewer::pauseOrResume() {
   }
 }
 
+bool Viewer::solveGoesOn() const {
+  return state_->phase == SessionPhase::kPaused || state_->phase == SessionPhase::kRunning;
+}
+
+void Viewer::step(std::uint64_t shots) {
+  // A command under way may be what begins the solve anew.
+  const bool up_to_date = session_.sent() == state_->commands;
+  if (up_to_date && state_->phase == SessionPhase::kConverged)
+    notice(state_->stopped_by == "no light" ? "no light to shoot" : "converged; Again shoots it anew");
+  if (up_to_date && state_->phase == SessionPhase::kStopped) notice("limit reached; Again shoots it anew");
+  session_.step(shots);
+}
+
 void Viewer::setBounces(std::optional<std::uint32_t> bounces) {
   ui_.settings.view.light = {true, bounces};
   if (bounces) session_.completeBounces();

@@ -190,7 +190,10 @@ class Viewer {
   void pauseOrResume();
   void pause() { session_.pause(); }
   void resume() { session_.resume(); }
-  void step(std::uint64_t shots) { session_.step(shots); }
+  /// Whether the solve runs or is paused: else there is nothing to pause or to step.
+  bool solveGoesOn() const;
+  /// Where the solve has ended nothing is shot, and a notice says so.
+  void step(std::uint64_t shots);
   /// Shows the light of so many bounces only, working them out where that takes more form factors; none: all.
   void setBounces(std::optional<std::uint32_t> bounces);
   void completeBounces() { session_.completeBounces(); }

@@ -1,6 +1,7 @@
 #include "viewer/actions/actions.h"
 
 #include <gmock/gmock.h>
+#include <imgui_internal.h>
 
 #include <map>
 #include <set>
@@ -268,6 +269,26 @@ TEST(LiveViewer, AWrongArgumentIsShownAndChangesNothing) {
   EXPECT_EQ(live->ui().settings.view.display, "radiosity");
   live->perform("dismiss");
   EXPECT_FALSE(live->error());
+}
+
+bool showsNotice(LiveViewer& live) {
+  for (int frame = 0; frame < 3; ++frame) live.draw();
+  const ImGuiWindow* window = ImGui::FindWindowByName("notice");
+  return window && window->Active;
+}
+
+TEST(LiveViewer, StepSaysWhyItShootsNothing) {
+  LiveViewer::Options options = cornellBox();
+  options.script = "pause on\nstep\nwait shots 1\n";
+  LiveViewer live(options);
+  ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
+  EXPECT_FALSE(showsNotice(live));
+  live->perform("pause", "off");
+  ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
+  EXPECT_FALSE(showsNotice(live));
+  live->perform("step");
+  EXPECT_TRUE(showsNotice(live));
+  EXPECT_EQ(live->exitCode(), 0);
 }
 
 TEST(LiveViewer, CountsShotsExactly) {

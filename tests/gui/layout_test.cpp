@@ -2,18 +2,24 @@
 // scales, with every section and overlay open.
 #include <gtest/gtest.h>
 
+#include <cctype>
+
 #include "export/image_files.h"
 #include "gui/support/gui_bench.h"
 #include "gui/support/gui_layout.h"
 #include "render/display_modes.h"
 #include "support/live_viewer.h"
 #include "support/temp_folder.h"
+#include "viewer/panels/widgets.h"
+#include "viewer/teaching.h"
 
 namespace unshot {
 namespace {
 
 using testing_support::GuiBench;
 using testing_support::LayoutCheck;
+using testing_support::Letter;
+using testing_support::Letters;
 using testing_support::LiveViewer;
 using testing_support::TempFolder;
 
@@ -45,6 +51,49 @@ TEST(LayoutCheck, FindsWhatIsWrong) {
   EXPECT_NE(all.find("window 'one' and window 'other' lie over each other"), std::string::npos) << all;
   EXPECT_NE(all.find("window 'away' goes beyond the screen"), std::string::npos) << all;
   EXPECT_NE(all.find(" under "), std::string::npos) << all;
+}
+
+/// Whether a line ends in a point or comma with a digit on the next one.
+bool tearsANumberApart(const ImDrawList& list) {
+  const std::vector<Letter> letters = Letters(*ImGui::GetIO().Fonts).of(list);
+  for (std::size_t k = 0; k + 1 < letters.size(); ++k) {
+    const bool mark = letters[k].text == "." || letters[k].text == ",";
+    const bool digit = std::isdigit(static_cast<unsigned char>(letters[k + 1].text[0])) != 0;
+    if (mark && digit && letters[k + 1].box.Min.x < letters[k].box.Min.x) return true;
+  }
+  return false;
+}
+
+TEST(Wrapped, TearsNoNumberApart) {
+  GuiBench bench(640, 360);
+  for (int width = 80; width < 400; width += 7) {
+    const auto content = [&] {
+      ImGui::SetNextWindowPos({0, 0});
+      ImGui::SetNextWindowSize({static_cast<float>(width), 300});
+      ImGui::Begin("text", nullptr, ImGuiWindowFlags_NoSavedSettings);
+      wrapped("In full M has 1,234 entries and 0.0638 MB\nkept of K: 0.0638");
+      ImGui::End();
+    };
+    bench.layOut(content);
+    bench.layOut(content);
+    EXPECT_FALSE(tearsANumberApart(*ImGui::FindWindowByName("text")->DrawList)) << width;
+  }
+}
+
+TEST(HemicubePanel, TearsNoNumberApart) {
+  LiveViewer::Options options;
+  options.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
+  options.solve.elements = 300;
+  options.script = "wait converged\npick 0.45,0.6\nhemicube-view on\n";
+  options.width = 640;
+  options.height = 360;
+  LiveViewer viewer(options);
+  ASSERT_TRUE(viewer.until([&] { return viewer->scriptDone() && viewer->teaching().look(); }));
+  for (int frame = 0; frame < 3; ++frame) viewer.draw();
+  const ImGuiWindow* window = ImGui::FindWindowByName("hemicube");
+  ASSERT_TRUE(window && window->Active);
+  EXPECT_GT(viewer->teaching().shares().back(), 0);
+  EXPECT_FALSE(tearsANumberApart(*window->DrawList));
 }
 
 /// A state of the window: what is done to get there, and to leave it.

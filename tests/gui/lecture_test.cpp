@@ -1,6 +1,7 @@
 // The hemicube and the lecture in the viewer: what they show is what the solver has.
 #include <gtest/gtest.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -89,6 +90,10 @@ TEST(MatrixSeries, OfAMatrixThatIsKnown) {
   MatrixSeries growing({0, 1.2, 1.2, 0}, 2);
   EXPECT_NEAR(growing.radius(), 1.2, 1e-4);
   EXPECT_GT(growing.norm(20), growing.norm(10));
+  EXPECT_EQ(series.terms(), SeriesTerms::kShrink);
+  EXPECT_EQ(growing.terms(), SeriesTerms::kGrow);
+  EXPECT_EQ(MatrixSeries({0, 1, 1, 0}, 2).terms(), SeriesTerms::kStay);
+  EXPECT_EQ(MatrixSeries({0.5, 0.5, 0.25, 0.75}, 2).terms(), SeriesTerms::kStay);
 }
 
 // 500 elements are about a hundred patches, twice as many as groups. Gathering counts the patches of a group
@@ -195,6 +200,31 @@ TEST(Lecture, WhatTheMouseIsOverIsFramedInTheScene) {
   EXPECT_EQ(teaching.marks().size(), 2u) << "a side face: what the hemicube's pixel sees";
   hover(live, 400, 100);
   EXPECT_EQ(teaching.marks().size(), 1u);
+}
+
+/// Whether what is under the mouse in the upper left of the lecture's page can be pressed.
+bool firstButtonIsEnabled(LiveViewer& live) {
+  live.draw();
+  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+    if (!window->Active || !std::string(window->Name).starts_with("lecture/page")) continue;
+    hover(live, window->Pos.x + 12, window->Pos.y + 8);
+    const ImGuiContext& gui = *ImGui::GetCurrentContext();
+    EXPECT_TRUE(gui.HoveredId != 0 || gui.HoveredIdDisabled) << "nothing is there";
+    return !gui.HoveredIdDisabled;
+  }
+  ADD_FAILURE() << "no page";
+  return false;
+}
+
+TEST(Lecture, StepIsDisabledWhereNothingIsToBeShot) {
+  LiveViewer live(cornellBox("pause on\nlecture-page shots\nstep\nwait shots 1\n"));
+  ASSERT_TRUE(finished(live));
+  EXPECT_TRUE(live->solveGoesOn());
+  EXPECT_TRUE(firstButtonIsEnabled(live));
+  live->perform("pause", "off");
+  ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
+  EXPECT_FALSE(live->solveGoesOn());
+  EXPECT_FALSE(firstButtonIsEnabled(live));
 }
 
 TEST(Lecture, PicturesOfAPatchAndOfAShotShowSomething) {

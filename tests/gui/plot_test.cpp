@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gui/support/gui_bench.h"
+#include "gui/support/gui_layout.h"
 #include "viewer/panels/plot_axes.h"
 #include "viewer/panels/plot_labels.h"
 
@@ -19,6 +20,8 @@ namespace {
 using testing_support::expectOnlyInside;
 using testing_support::GuiBench;
 using testing_support::keepPicture;
+using testing_support::Letter;
+using testing_support::Letters;
 using testing_support::pixelAt;
 
 using Points = std::vector<PlotPoint>;
@@ -248,6 +251,34 @@ TEST(Plot, UnderTheMouseStandsTheNearestPoint) {
   EXPECT_LT(middle, 230);
   EXPECT_EQ(litColumn(195), middle);
   EXPECT_LT(litColumn(80), 100);
+}
+
+std::string lettersOfFrame() {
+  const Letters letters(*ImGui::GetIO().Fonts);
+  const ImDrawData& data = *ImGui::GetDrawData();
+  std::string out;
+  for (int k = 0; k < data.CmdListsCount; ++k) {
+    for (const Letter& letter : letters.of(*data.CmdLists[k])) out += letter.text;
+  }
+  return out;
+}
+
+TEST(Plot, TheCurveHasItsNameBesideItAndUnderTheMouse) {
+  GuiBench bench(360, 260);
+  const Points points{{0, 1}, {50, 0.1}, {100, 0.01}};
+  PlotStyle style{"", "s", "", {}, true, 180};
+  const auto shown = [&](float mouse_x) {
+    ImGui::GetIO().MousePos = {mouse_x, 60};
+    for (int frame = 0; frame < 3; ++frame) drawn(bench, points, 300, style);
+    return lettersOfFrame();
+  };
+  EXPECT_EQ(shown(180).find("unshot"), std::string::npos);
+  style.name = "unshot";
+  const std::string beside = shown(-1000);
+  EXPECT_NE(beside.find("unshot"), std::string::npos) << beside;
+  EXPECT_EQ(beside.find("unshot10.0%"), std::string::npos) << beside;
+  const std::string hovered = shown(180);
+  EXPECT_NE(hovered.find("unshot10.0%"), std::string::npos) << hovered;
 }
 
 TEST(Plot, ThousandsOfPointsCostFewVertices) {

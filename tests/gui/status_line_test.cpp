@@ -6,7 +6,9 @@
 
 #include <set>
 
+#include "base/text.h"
 #include "support/live_viewer.h"
+#include "viewer/panels/error_panel.h"
 
 namespace unshot {
 namespace {
@@ -78,6 +80,42 @@ TEST(StatusLine, NothingMovesWhileFiguresChange) {
   // Phase, unshot light, error, rows, frame, mode, renderer.
   EXPECT_LE(seen.size(), 7u) << testing::PrintToString(seen);
   EXPECT_GE(seen.size(), 6u) << testing::PrintToString(seen);
+}
+
+TEST(StatusLine, SaysNothingOfAnErrorOfWhichNothingIsKnown) {
+  LiveViewer::Options options = box(1280, 720);
+  options.script = "pause on\nstep\nwait shots 1\n";
+  LiveViewer viewer(options);
+  ASSERT_TRUE(viewer.until([&] { return viewer->scriptDone(); }));
+  viewer.draw();
+  ASSERT_TRUE(status());
+  ASSERT_EQ(knownError(viewer->state()), "");
+  EXPECT_EQ(errorInFront(viewer->state()), percentText(viewer->state().measures.unshot_fraction) + " unshot");
+  std::set<int> parts;
+  addParts(*status(), parts);
+  EXPECT_LE(parts.size(), 5u);  // phase, unshot light, frame, mode, renderer
+  EXPECT_GE(parts.size(), 4u);
+}
+
+// The estimate of an error below what noise hides is 0, and its interval goes up from there.
+TEST(ErrorInFront, IsNeverZeroWhereNoiseHidesIt) {
+  LaneState state;
+  state.measures.unshot_fraction = 0.25;
+  EXPECT_EQ(errorInFront(state), "25 % unshot");
+  state.measures.bounds.upper = 0.02;
+  EXPECT_EQ(errorInFront(state), "error below 2 %");
+  state.estimates.both = {0, 0, 0.1, 100};
+  EXPECT_EQ(errorInFront(state), "error up to 12 %");
+  state.estimates.both.value = 0.05;
+  EXPECT_EQ(errorInFront(state), "error about 7 %");
+  state.estimates.total = {0.0597, 0, 0.169, 100};
+  EXPECT_EQ(errorInFront(state), "error about 5.97 %");
+  for (const double value : {0.0, 1e-5}) {
+    state.estimates.total.value = value;
+    EXPECT_EQ(errorInFront(state), "error up to 16.9 %");
+  }
+  state.estimates.total = {0, 0, 0, 100};
+  EXPECT_EQ(errorInFront(state), "error about 0 %") << "nothing is reflected";
 }
 
 TEST(StatusLine, LeavesTheLastOutWhereItIsNarrow) {

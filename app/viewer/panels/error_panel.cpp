@@ -16,6 +16,9 @@ namespace {
 // Bounds above it say nothing: the picture may be black.
 constexpr double kMostShown = 1;
 
+// An estimate below this part of its interval's upper end is 0 by noise.
+constexpr double kHidden = 1e-3;
+
 double shareOf(double value) { return value > 0 ? std::clamp(1 + std::log10(value) / 4, 0.0, 1.0) : 0.0; }
 
 // A bar on a logarithmic scale from 0.01 % to 100 %, with what it stands for and its value; where `inner` is
@@ -42,6 +45,12 @@ void errorBar(const char* name, double value, const std::string& text, const ImV
   tooltip(tip);
 }
 
+/// An estimate and what comes on top of it. Of one that noise hides, its upper end.
+std::string aboutText(const ErrorEstimate& e, double more = 0) {
+  const bool hidden = e.high > 0 && e.value <= kHidden * e.high;
+  return hidden ? "up to " + percentText(more + e.high) : "about " + percentText(more + e.value);
+}
+
 std::string estimateText(const ErrorEstimate& e) {
   if (e.places == 0) return "not known yet";
   return percentText(e.value) + " (" + percentText(e.low) + " to " + percentText(e.high) + ")";
@@ -58,12 +67,17 @@ std::string solverText(const Measures& m) {
                                      : truth + ", no bound yet";
 }
 
-std::string errorInFront(const LaneState& state) {
-  if (state.estimates.total.places > 0) return "error about " + percentText(state.estimates.total.value);
+std::string knownError(const LaneState& state) {
+  if (state.estimates.total.places > 0) return "error " + aboutText(state.estimates.total);
   const double bound = state.measures.solverBound();
-  if (bound >= kMostShown) return percentText(state.measures.unshot_fraction) + " unshot";
+  if (bound >= kMostShown) return {};
   if (state.estimates.both.places == 0) return "error below " + percentText(bound);
-  return "error about " + percentText(bound + state.estimates.both.value);
+  return "error " + aboutText(state.estimates.both, bound);
+}
+
+std::string errorInFront(const LaneState& state) {
+  const std::string known = knownError(state);
+  return known.empty() ? percentText(state.measures.unshot_fraction) + " unshot" : known;
 }
 
 void errorsSection(Viewer& viewer) {
@@ -122,6 +136,7 @@ void convergenceSection(Viewer& viewer) {
   const PlotAxis axis = viewer.ui().plot_axis;
   const Curves curves = curvesOf(state, axis), rival = state.rival ? curvesOf(*state.rival, axis) : Curves{};
   PlotStyle style;
+  style.name = "unshot";
   style.x_unit = axis == PlotAxis::kSeconds ? "s" : "";
   style.goal = state.facts ? state.facts->solver_target : viewer.ui().options.error;
   style.height = 9 * ImGui::GetFontSize();

@@ -7,6 +7,9 @@
 
 namespace unshot {
 
+/// How wrong the picture is; empty before there is a bound or an estimate.
+std::string knownError(const LaneState& state);
+
 /// The one number: how wrong the picture is, or what is unshot while that is not known.
 std::string errorInFront(const LaneState& state);
 

@@ -40,13 +40,13 @@ void pixelTip(Viewer& viewer, std::uint32_t x, std::uint32_t y) {
   const std::uint32_t patch = look.patchAt(*pixel);
   std::string text =
       patch == kNone ? "Nothing: what leaves here escapes" : "Patch " + patchText(*look.mesh, patch);
-  text += "\nThis pixel: \u0394F = " + figureText((*look.delta)[*pixel]);
+  text += "\nThis pixel: \u0394F = " + channelText((*look.delta)[*pixel]);
   const double share = teaching.shares()[patch == kNone ? look.mesh->patch_count : patch];
-  text += "\nAll of its pixels: F = " + figureText(share);
+  text += "\nAll of its pixels: F = " + channelText(share);
   const PatchInsight* known = teaching.patch();
   if (known && known->patch == look.patch && !known->sent.empty()) {
     const double solved = patch == kNone ? known->escape : static_cast<double>(known->sent[patch]);
-    text += "\nThe solver's F: " + figureText(solved);
+    text += "\nThe solver's F: " + channelText(solved);
   }
   tooltip(text);
   if (patch != kNone) teaching.markPatch(patch, false);
@@ -75,11 +75,13 @@ void sums(const Teaching& teaching, float side) {
   double sum = 0;
   for (const double delta : *look.delta) sum += delta;
   const double escape = teaching.shares().back();
-  const std::string text = "\u2211\u0394F = " + figureText(sum - escape) +
-                           (escape > 0 ? ", escapes " + figureText(escape) : std::string());
-  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + side);
+  const std::string arrives = "\u2211\u0394F = " + figureText(sum - escape),
+                    escapes = "escapes " + figureText(escape);
+  std::string text = escape > 0 ? arrives + ", " + escapes : arrives;
+  // ImGui's own lines end after any point or comma, also within a number.
+  if (ImGui::CalcTextSize(text.c_str()).x > side)
+    text = brokenText(arrives, side) + "\n" + brokenText(escapes, side);
   ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
   tooltip(
       "Delta form factors of all pixels that see something, and of those that see nothing: together 1. In a "
       "closed scene nothing escapes");

@@ -72,11 +72,11 @@ void cellTip(Viewer& viewer, const std::vector<double>& values, const std::strin
   const Mesh& mesh = *viewer.state().snapshot->mesh;
   const int channel = teaching.choices.channel;
   std::string text = "from j: " + groupText(m, mesh, j) + "\nto i: " + groupText(m, mesh, i) + "\n";
-  text += name + " there: " + figureText(values[i * m.size() + j]);
+  text += name + " there: " + channelText(values[i * m.size() + j]);
   const double r =
       teaching.choices.allow_divergence ? teaching.choices.reflectance : m.groups[i].reflectance[channel];
-  text += "\nR_i = " + figureText(r) + ", F_ij = " + figureText(m.factor(i, j)) + ", R_i F_ij = " +
-          figureText(teaching.choices.allow_divergence ? r * m.factor(i, j) : m.at(i, j)[channel]);
+  text += "\nR_i = " + channelText(r) + ", F_ij = " + channelText(m.factor(i, j)) + ", R_i F_ij = " +
+          channelText(teaching.choices.allow_divergence ? r * m.factor(i, j) : m.at(i, j)[channel]);
   if (!m.groups[j].sends) text += "\nj holds no light: what it would send was not computed";
   tooltip(text);
   teaching.markGroup(static_cast<std::uint32_t>(j), true);
@@ -122,7 +122,7 @@ void legend(double most, float width) {
                        {at.x + width * static_cast<float>(k + 1) / kParts, at.y + height},
                        heatColour(value, most));
   }
-  const std::string low = figureText(most * std::pow(10.0, -kDecades)), high = figureText(most);
+  const std::string low = channelText(most * std::pow(10.0, -kDecades)), high = channelText(most);
   const ImU32 text = ImGui::GetColorU32(ImGuiCol_TextDisabled);
   list.AddText({at.x, at.y + 1.15f * height}, text, low.c_str());
   list.AddText({at.x + width - ImGui::CalcTextSize(high.c_str()).x, at.y + 1.15f * height}, text,
@@ -181,11 +181,11 @@ void chooseReflectance(Viewer& viewer) {
   }
 }
 
-/// Bars of the norms of M^k, logarithmic; red where the terms grow.
+/// Bars of the norms of M^k, logarithmic; red where the series has no sum.
 void terms(Viewer& viewer) {
   Teaching& teaching = viewer.teaching();
   MatrixSeries& series = teaching.series();
-  const bool grows = series.radius() >= 1;
+  const bool endless = series.terms() != SeriesTerms::kShrink;
   const float em = ImGui::GetFontSize(), height = kBars * em,
               width = std::floor(ImGui::GetContentRegionAvail().x);
   ImGui::TextUnformatted("Size of the terms M^k");
@@ -201,7 +201,7 @@ void terms(Viewer& viewer) {
     const double size = series.norm(k);
     const double share = size > 0 ? std::clamp(1 + (std::log10(size) - top) / decades, 0.0, 1.0) : 0;
     const float x = at.x + slot * static_cast<float>(k);
-    const ImVec4 colour = grows ? kRed : ImGui::GetStyleColorVec4(ImGuiCol_PlotHistogram);
+    const ImVec4 colour = endless ? kRed : ImGui::GetStyleColorVec4(ImGuiCol_PlotHistogram);
     const bool lit = !teaching.choices.sums ? k == teaching.choices.power : k <= teaching.choices.power;
     list.AddRectFilled({x, at.y + height * static_cast<float>(1 - share)}, {x + slot - 2, at.y + height},
                        ImGui::GetColorU32({colour.x, colour.y, colour.z, lit ? 1.0f : 0.45f}));
@@ -214,19 +214,30 @@ void terms(Viewer& viewer) {
   if (!ImGui::IsItemHovered()) return;
   const float place = (ImGui::GetMousePos().x - at.x) / slot;
   const auto k = std::min(kTermsShown, static_cast<std::size_t>(std::max(0.0f, place)));
-  tooltip(termText(k, false) + ": " + figureText(series.norm(k)));
+  tooltip(termText(k, false) + ": " + channelText(series.norm(k)));
   if (ImGui::IsItemClicked()) viewer.perform("matrix-power", std::to_string(k));
 }
 
+std::string_view termsText(SeriesTerms terms) {
+  switch (terms) {
+    case SeriesTerms::kGrow:
+      return ". Each bounce adds more than the one before: the series has no sum, for where nothing is "
+             "absorbed light never ends";
+    case SeriesTerms::kStay:
+      return ". Each bounce adds as much as the one before and the sum grows without end, for where nothing "
+             "is absorbed light never ends";
+    case SeriesTerms::kShrink:
+      break;
+  }
+  return ": what each further bounce leaves of the light, in the long run";
+}
+
 void radiusLine(Viewer& viewer) {
-  const double radius = viewer.teaching().series().radius();
-  const bool grows = radius >= 1;
-  if (grows) ImGui::PushStyleColor(ImGuiCol_Text, kRed);
-  wrapped("Spectral radius of M: " + figureText(radius) +
-          (grows ? ". Each bounce adds more than the one before: the series has no sum, for where nothing is "
-                   "absorbed light never ends"
-                 : ": what each further bounce leaves of the light, in the long run"));
-  if (grows) ImGui::PopStyleColor();
+  const MatrixSeries& series = viewer.teaching().series();
+  const bool endless = series.terms() != SeriesTerms::kShrink;
+  if (endless) ImGui::PushStyleColor(ImGuiCol_Text, kRed);
+  wrapped("Spectral radius of M: " + figureText(series.radius()) + std::string(termsText(series.terms())));
+  if (endless) ImGui::PopStyleColor();
 }
 
 /// How near the partial sum is to what the solve has.
@@ -244,7 +255,8 @@ void lightLine(Viewer& viewer) {
   }
   if (!(all > 0)) return;
   wrapped("B = (" + termText(teaching.choices.power, true) + ") E: " + percentText(sum / all) +
-          " of the power of the solve's B");
+          " of the power of " +
+          (viewer.state().phase == SessionPhase::kConverged ? "the solve's B" : "what is shot so far"));
   tooltip(
       "\u2211 A B over the groups. At the end it misses the solve's by as much as gathering costs: within a "
       "group all patches count as equally bright");

@@ -33,7 +33,7 @@ bool beginChannels(const char* id) {
   ImGui::TableNextColumn();
   for (const char* name : {"R", "G", "B"}) {
     ImGui::TableNextColumn();
-    ImGui::TextDisabled("%s", name);
+    rightAligned(name, true);
   }
   return true;
 }
@@ -45,7 +45,7 @@ void row(const char* name, const glm::dvec3& value, std::string_view unit, std::
   tooltip(tip);
   for (int k = 0; k < 3; ++k) {
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(channelText(value[k]).c_str());
+    rightAligned(channelText(value[k]));
     tooltip(tip);
   }
   if (ImGui::TableGetColumnCount() < 5) return;
@@ -83,10 +83,15 @@ void sources(Viewer& viewer, const PatchInsight& p) {
   const Mesh& mesh = *viewer.state().snapshot->mesh;
   ImGui::TextUnformatted("Where most of it comes from");
   if (!ImGui::BeginTable("sources", 4, ImGuiTableFlags_NoPadOuterX)) return;
-  ImGui::TableSetupColumn("patch j", ImGuiTableColumnFlags_WidthStretch);
-  for (const char* name : {"F_ij", "B_j (G)", "share"})
-    ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthFixed, channelWidth());
-  ImGui::TableHeadersRow();
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
+  for (int k = 0; k < 3; ++k) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, channelWidth());
+  ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted("patch j");
+  for (const char* name : {"F_ij", "B_j (G)", "share"}) {
+    ImGui::TableNextColumn();
+    rightAligned(name);
+  }
   for (const PatchSource& source : p.sources) {
     const bool sky = source.patch >= mesh.patch_count;
     ImGui::TableNextRow();
@@ -94,13 +99,13 @@ void sources(Viewer& viewer, const PatchInsight& p) {
     ImGui::TextUnformatted(sky ? "the sky" : patchText(mesh, source.patch).c_str());
     if (!sky && ImGui::IsItemHovered()) viewer.teaching().markPatch(source.patch, true);
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(channelText(source.factor).c_str());
+    rightAligned(channelText(source.factor));
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(channelText(source.radiosity.y).c_str());
+    rightAligned(channelText(source.radiosity.y));
     ImGui::TableNextColumn();
     const glm::dvec3 all = p.gathered, part = source.factor * source.radiosity;
     const double sum = all.x + all.y + all.z;
-    ImGui::TextUnformatted(percentText(sum > 0 ? (part.x + part.y + part.z) / sum : 0).c_str());
+    rightAligned(percentText(sum > 0 ? (part.x + part.y + part.z) / sum : 0));
   }
   ImGui::EndTable();
 }
@@ -204,10 +209,10 @@ void equationPage(Viewer& viewer) {
 }
 
 void shotsPage(Viewer& viewer) {
+  ImGui::BeginDisabled(!viewer.solveGoesOn());
   if (ImGui::Button("Step")) viewer.perform("step");
   tooltip("N: the patch chosen next shoots, then the solve pauses");
   const bool paused = viewer.state().phase == SessionPhase::kPaused;
-  ImGui::BeginDisabled(!paused && viewer.state().phase != SessionPhase::kRunning);
   if (buttonBeside(paused ? "Resume" : "Pause")) viewer.perform("pause");
   tooltip("Space");
   ImGui::EndDisabled();

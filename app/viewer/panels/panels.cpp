@@ -55,8 +55,7 @@ void head(Viewer& viewer) {
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float width = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
   const bool paused = state.phase == SessionPhase::kPaused;
-  const bool can_pause = paused || state.phase == SessionPhase::kRunning;
-  ImGui::BeginDisabled(!can_pause);
+  ImGui::BeginDisabled(!viewer.solveGoesOn());
   if (ImGui::Button(paused ? "Resume" : "Pause", {width, 0})) viewer.perform("pause");
   tooltip("Space");
   ImGui::SameLine();

@@ -29,16 +29,6 @@ bool beginChannels(const char* id) {
   return true;
 }
 
-void rightAligned(const std::string& text, bool dim) {
-  const float space = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
-  if (space > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + space);
-  if (dim) {
-    ImGui::TextDisabled("%s", text.c_str());
-  } else {
-    ImGui::TextUnformatted(text.c_str());
-  }
-}
-
 void channelNames() {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();

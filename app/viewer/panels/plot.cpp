@@ -29,8 +29,14 @@ class LogPlot {
  private:
   void arrange();
   void placeLabels();
-  void placeGoalLabel();
-  bool curveCrosses(const PlotLabels::Label& label) const;
+  void placeInnerLabels();
+  /// At the first of the places where no curve runs through it.
+  struct Place {
+    ImVec2 at, align;
+  };
+  void placeInside(const std::string& text, std::span<const Place> places, ImU32 colour);
+  bool crosses(const std::vector<ImVec2>& curve, const PlotLabels::Label& label) const;
+  ImU32 secondColour() const;
   void drawGrid(ImDrawList& list) const;
   void drawGoal(ImDrawList& list) const;
   void drawArea(ImDrawList& list) const;
@@ -97,7 +103,7 @@ LogPlot::LogPlot(std::span<const PlotPoint> points, const PlotStyle& style, ImVe
   }
   second_ = thinnedOut(pixels);
   placeLabels();
-  placeGoalLabel();
+  placeInnerLabels();
 }
 
 void LogPlot::arrange() {
@@ -142,10 +148,10 @@ void LogPlot::placeLabels() {
   labels_.place(style_.x_label, {0.5f * (left_ + right_), max_.y}, {0.5f, 1}, faint);
 }
 
-// Whether the curve runs through a text.
-bool LogPlot::curveCrosses(const PlotLabels::Label& label) const {
-  for (std::size_t i = 1; i < curve_.size(); ++i) {
-    const ImVec2 a = curve_[i - 1], b = curve_[i];
+// Whether a curve runs through a text.
+bool LogPlot::crosses(const std::vector<ImVec2>& curve, const PlotLabels::Label& label) const {
+  for (std::size_t i = 1; i < curve.size(); ++i) {
+    const ImVec2 a = curve[i - 1], b = curve[i];
     const float from = std::max(a.x, label.min.x - 0.4f * em_), to = std::min(b.x, label.max.x + 0.4f * em_);
     if (from > to) continue;
     const auto height = [&](float x) {
@@ -157,25 +163,47 @@ bool LogPlot::curveCrosses(const PlotLabels::Label& label) const {
   return false;
 }
 
-void LogPlot::placeGoalLabel() {
-  if (!hasGoal()) return;
-  const std::string text = "goal " + shortValueText(*style_.goal, style_.percent);
-  inner_labels_ = PlotLabels({left_, top_}, {right_, bottom_}, 0);
-  const float y = yOf(std::log10(*style_.goal)), away = 0.18f * em_;
-  const float from_left = left_ + 0.6f * em_, from_right = right_ - 0.9f * em_;
-  struct Place {
-    ImVec2 at, align;
-  };
-  const Place places[] = {{{from_left, y - away}, {0, 1}},
-                          {{from_left, y + away}, {0, 0}},
-                          {{from_right, y - away}, {1, 1}},
-                          {{from_right, y + away}, {1, 0}}};
+void LogPlot::placeInside(const std::string& text, std::span<const Place> places, ImU32 colour) {
+  const float goal = hasGoal() ? yOf(std::log10(*style_.goal)) : -1;
   for (const Place& place : places) {
     const PlotLabels::Label label = inner_labels_.arranged(text, place.at, place.align, 0);
-    const bool on_line = label.min.y < y && label.max.y > y;
-    if (on_line || curveCrosses(label)) continue;
-    if (inner_labels_.place(text, place.at, place.align, styled(ImGuiCol_Text, 0.75f))) return;
+    const bool on_goal = hasGoal() && label.min.y < goal && label.max.y > goal;
+    if (on_goal || crosses(curve_, label) || crosses(second_, label)) continue;
+    if (inner_labels_.place(text, place.at, place.align, colour)) return;
   }
+}
+
+void LogPlot::placeInnerLabels() {
+  inner_labels_ = PlotLabels({left_, top_}, {right_, bottom_}, 0);
+  if (second_.size() > 1)
+    inner_labels_.place(style_.second.label, {second_[0].x + 0.4f * em_, second_[0].y - 0.1f * em_}, {0, 1},
+                        secondColour());
+  const float away = 0.18f * em_;
+  if (hasGoal()) {
+    const float y = yOf(std::log10(*style_.goal));
+    const float from_left = left_ + 0.6f * em_, from_right = right_ - 0.9f * em_;
+    const Place places[] = {{{from_left, y - away}, {0, 1}},
+                            {{from_left, y + away}, {0, 0}},
+                            {{from_right, y - away}, {1, 1}},
+                            {{from_right, y + away}, {1, 0}}};
+    placeInside("goal " + shortValueText(*style_.goal, style_.percent), places, styled(ImGuiCol_Text, 0.75f));
+  }
+  if (curve_.size() < 2 || !*style_.name) return;
+  // At its end, or else on either side further left.
+  std::vector<Place> places = {{{curve_.back().x, curve_.back().y - 0.7f * em_}, {1, 1}},
+                               {{curve_.back().x, curve_.back().y + 0.7f * em_}, {1, 0}}};
+  for (const std::size_t part : {2, 4, 1, 3}) {
+    const ImVec2 at = curve_[part * (curve_.size() - 1) / 5];
+    places.push_back({{at.x + 0.5f * em_, at.y - 0.3f * em_}, {0, 1}});
+    places.push_back({{at.x - 0.5f * em_, at.y + 0.3f * em_}, {1, 0}});
+  }
+  placeInside(style_.name, places, styled(ImGuiCol_PlotLines));
+}
+
+ImU32 LogPlot::secondColour() const {
+  ImVec4 colour = style_.second.colour;
+  if (!style_.second.equal) colour.w *= 0.65f;
+  return ImGui::GetColorU32(colour);
 }
 
 void LogPlot::drawGrid(ImDrawList& list) const {
@@ -281,13 +309,7 @@ void LogPlot::drawBand(ImDrawList& list) const {
 void LogPlot::drawSecond(ImDrawList& list) const {
   if (second_.size() < 2) return;
   const PlotCurve& second = style_.second;
-  ImVec4 colour = second.colour;
-  if (!second.equal) colour.w *= 0.65f;
-  const ImU32 packed = ImGui::GetColorU32(colour);
-  drawLine(list, second_, packed, wholePixels(em_ / (second.equal ? 7.5f : 12.0f)));
-  PlotLabels label({left_, top_}, {right_, bottom_}, 0);
-  label.place(second.label, {second_[0].x + 0.4f * em_, second_[0].y - 0.1f * em_}, {0, 1}, packed);
-  label.draw(list);
+  drawLine(list, second_, secondColour(), wholePixels(em_ / (second.equal ? 7.5f : 12.0f)));
 }
 
 void LogPlot::drawMarker(ImDrawList& list, ImVec2 at, ImU32 colour) const {
@@ -336,7 +358,8 @@ void LogPlot::hover(ImDrawList& list, ImVec2 mouse) const {
   drawMarker(list, at, styled(ImGuiCol_PlotLinesHovered));
   ImGui::BeginTooltip();
   ImGui::PushStyleColor(ImGuiCol_Text, styled(ImGuiCol_PlotLines));
-  ImGui::TextUnformatted(valueText(nearest->y, style_.percent, 3).c_str());
+  const std::string name = *style_.name ? std::string(style_.name) + " " : std::string();
+  ImGui::TextUnformatted((name + valueText(nearest->y, style_.percent, 3)).c_str());
   ImGui::PopStyleColor();
   const std::string unit = *style_.x_unit ? style_.x_unit : style_.x_label;
   ImGui::TextDisabled("%s", positionText(nearest->x, unit).c_str());

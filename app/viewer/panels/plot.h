@@ -33,6 +33,7 @@ struct PlotStyle {
   bool percent = true;         ///< y as 100 %, 10 %, ...
   float height = 0;            ///< in pixels; 0: five ninths of the width
   PlotCurve second = {};
+  const char* name = "";  ///< of the curve: beside it where there is room, and under the mouse
 };
 
 /// Draws the curve at ImGui's cursor, as wide as the room there is, with decades, ticks at round numbers and,

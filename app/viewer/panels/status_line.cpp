@@ -26,7 +26,9 @@ struct Part {
   const char* tip;
 };
 
+/// Empty where nothing was drawn.
 std::string frameText(double milliseconds) {
+  if (milliseconds < 0.05) return {};
   char text[32];
   std::snprintf(text, sizeof text, milliseconds < 99.95 ? "%.1f ms" : "%.0f ms", milliseconds);
   return text;
@@ -45,10 +47,10 @@ std::array<Part, 6> partsOf(const Viewer& viewer) {
   return {{
       {solving ? "unshot " + percentText(state.measures.unshot_fraction) : nothing, "unshot 0.0012 %",
        "Light that is emitted or reflected but not yet shot: sum A |U| / sum A E over patches and channels"},
-      {solving ? errorInFront(state) : nothing, "error about 0.0012 %",
+      {solving ? knownError(state) : nothing, "error about 0.0012 %",
        "How wrong the reflected light still is (RMS error over RMS light); \"below\" is a proven bound of "
-       "the "
-       "solver's error, \"about\" an estimate of all of it"},
+       "the solver's error, \"about\" an estimate of all of it, \"up to\" the upper end of one that noise "
+       "hides"},
       {running ? countText(rows) + " rows/s" : nothing, "00,000 rows/s",
        "Columns and rows of form factors computed a second"},
       {frameText(viewer.frameMilliseconds()), "000.0 ms",

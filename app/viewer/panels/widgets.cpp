@@ -60,9 +60,20 @@ float channelWidth() {
   return std::max(ImGui::CalcTextSize("-0.00123").x, ImGui::CalcTextSize("-1.2e-12").x);
 }
 
+void rightAligned(const std::string& text, bool dim) {
+  const float space = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+  if (space > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + space);
+  if (dim) {
+    ImGui::TextDisabled("%s", text.c_str());
+  } else {
+    ImGui::TextUnformatted(text.c_str());
+  }
+}
+
 void wrapped(const std::string& text) {
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(text.c_str());
+  const std::string lines = brokenText(text, ImGui::GetContentRegionAvail().x);
+  ImGui::PushTextWrapPos(0);  // for words that are wider
+  ImGui::TextUnformatted(lines.c_str());
   ImGui::PopTextWrapPos();
 }
 
@@ -79,17 +90,22 @@ void paragraph(const char* name, std::string_view text) {
 }
 
 std::string brokenText(std::string_view text, float width) {
-  std::string out, line;
-  for (const std::string_view word : splitParts(text, ' ')) {
-    const std::string longer = line.empty() ? std::string(word) : line + " " + std::string(word);
-    if (!line.empty() && ImGui::CalcTextSize(longer.c_str()).x > width) {
-      out += line + "\n";
-      line = word;
-    } else {
-      line = longer;
+  std::string out;
+  for (const std::string_view given : splitParts(text, '\n')) {
+    std::string line;
+    for (const std::string_view word : splitParts(given, ' ')) {
+      const std::string longer = line.empty() ? std::string(word) : line + " " + std::string(word);
+      if (!line.empty() && ImGui::CalcTextSize(longer.c_str()).x > width) {
+        out += line + "\n";
+        line = word;
+      } else {
+        line = longer;
+      }
     }
+    out += line + "\n";
   }
-  return out + line;
+  if (!out.empty()) out.pop_back();
+  return out;
 }
 
 std::string shortened(const std::string& text, float width) {

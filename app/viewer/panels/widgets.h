@@ -28,6 +28,9 @@ void line(const char* name, const std::string& value, std::string_view tip = {})
 std::string channelText(double value);
 float channelWidth();
 
+/// Text at the right end of the room there is, such as a cell of a table.
+void rightAligned(const std::string& text, bool dim = false);
+
 /// Text over as many lines as it takes.
 void wrapped(const std::string& text);
 void dimmed(const std::string& text);
@@ -42,7 +45,8 @@ std::string shortened(const std::string& text, float width);
 /// has all of it.
 bool beginCombo(const char* id, const std::string& shown);
 
-/// The text broken into lines no wider than this [px], as far as its words allow it.
+/// The text broken into lines no wider than this [px], as far as its words allow it: between words only, so
+/// that no number is torn apart. Lines that it has stay.
 std::string brokenText(std::string_view text, float width);
 
 /// The title of a table's row; the key itself where there is none.
