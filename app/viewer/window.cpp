@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "base/clock.h"
 #include "viewer/actions/actions.h"
@@ -21,12 +22,44 @@ std::string adviceWithoutWindow(const std::filesystem::path& scene) {
          " --png picture.png";
 }
 
-Viewer& viewerOf(GLFWwindow* window) { return *static_cast<Viewer*>(glfwGetWindowUserPointer(window)); }
+/// Keys that went down since the last frame. ImGui looks at keys once a frame, and would miss one that is up
+/// again by then.
+class PressedKeys {
+ public:
+  void note(int key) {
+    if (key >= 0 && key < IM_ARRAYSIZE(ImGuiIO::KeysDown)) keys_.push_back(key);
+  }
+  void beforeFrame() const {
+    set([](int) { return true; });
+  }
+  void afterFrame(GLFWwindow* window) {
+    set([&](int key) { return glfwGetKey(window, key) == GLFW_PRESS; });
+    keys_.clear();
+  }
+
+ private:
+  template <class F>
+  void set(F&& isDown) const {
+    for (const int key : keys_) ImGui::GetIO().KeysDown[key] = isDown(key);
+  }
+  std::vector<int> keys_;
+};
+
+/// What the window's callbacks are for.
+struct Receiver {
+  Viewer& viewer;
+  PressedKeys keys;
+};
+
+Receiver& receiverOf(GLFWwindow* window) { return *static_cast<Receiver*>(glfwGetWindowUserPointer(window)); }
+
+Viewer& viewerOf(GLFWwindow* window) { return receiverOf(window).viewer; }
 
 void setCallbacks(GLFWwindow* window) {
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
     Viewer& viewer = viewerOf(w);
     viewer.input();
+    if (action == GLFW_PRESS) receiverOf(w).keys.note(key);
     // On most keyboards + is Shift and another key, so only Ctrl tells shortcuts apart.
     if (action == GLFW_PRESS && !ImGui::GetIO().WantTextInput)
       viewer.key(key, (mods & GLFW_MOD_CONTROL) != 0);
@@ -63,7 +96,8 @@ void fitToScreen(WindowOptions& options) {
   if (height > 0) options.height = std::min(options.height, height);
 }
 
-void runLoop(Viewer& viewer, GLFWwindow* window) {
+void runLoop(Receiver& receiver, GLFWwindow* window) {
+  Viewer& viewer = receiver.viewer;
   while (!viewer.closing()) {
     double now = wallSeconds();
     viewer.update(now);
@@ -81,7 +115,10 @@ void runLoop(Viewer& viewer, GLFWwindow* window) {
     glfwGetFramebufferSize(window, &width, &height);
     if (width <= 0 || height <= 0 || viewer.nextFrame(now) > now || !viewer.prepare()) continue;
     ImGui_ImplGlfw_NewFrame();
-    if (!viewer.draw(0, width, height)) continue;
+    receiver.keys.beforeFrame();
+    const bool changed = viewer.draw(0, width, height);
+    receiver.keys.afterFrame(window);
+    if (!changed) continue;
     glfwSwapBuffers(window);
     viewer.presented();
   }
@@ -113,14 +150,15 @@ int runWindow(ViewerSetup setup, const WindowOptions& wanted) {
     int code = 0;
     {
       Viewer viewer(std::move(setup));
-      glfwSetWindowUserPointer(window, &viewer);
+      Receiver receiver{viewer, {}};
+      glfwSetWindowUserPointer(window, &receiver);
       setCallbacks(window);
       const GuiInput input(window);
       float scale = 1;
       glfwGetWindowContentScale(window, &scale, nullptr);
       viewer.setScreenScale(scale);
       try {
-        runLoop(viewer, window);
+        runLoop(receiver, window);
       } catch (const Error& error) {
         glfwHideWindow(window);
         throw viewer.rescue(error);
