@@ -38,10 +38,9 @@ HemicubeEye::HemicubeEye(std::shared_ptr<const Mesh> mesh, const CancelToken& ca
 HemicubeEye::~HemicubeEye() = default;
 
 HemicubeLook HemicubeEye::look(std::uint32_t patch) {
-  const Side& side = mesh_->sides[mesh_->patch_side[patch]];
-  const Region region = regionOfPatch(*mesh_, side.surface, patch - side.first_patch);
-  const HemicubeFrame frame =
-      turnedHemicube(*mesh_, region.surface, side, region.sample, 1e-3 * std::sqrt(region.area), 1);
+  const Region region = regionOfPatch(*mesh_, patch);
+  const HemicubeFrame frame = turnedHemicube(*mesh_, region.surface, mesh_->sides[region.side], region.sample,
+                                             1e-3 * std::sqrt(region.area), 1);
   const HemicubeView::Result seen = parts_->rays.look(frame, kLayout);
   HemicubeLook out{mesh_, patch, kLayout, {}, parts_->delta, parts_->colours};
   out.elements.reserve(seen.items.size());

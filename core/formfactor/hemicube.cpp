@@ -89,11 +89,12 @@ class Hemicube final : public FormFactorMethod {
     const ElementShape& shape =
         mesh_.shapes[mesh_.surfaces[side.surface].elements.first + v - side.first_element];
     Region point;
+    point.side = mesh_.element_side[v];
     point.surface = side.surface;
     point.area = mesh_.element_area[v];
     drafting_ = false;
     point.sample = mesh_.surfaces[side.surface].chart(shape.centre);
-    shoot(point, side, 0, 1 / point.area);
+    shoot(point, 0, 1 / point.area);
     std::vector<double> per_patch(mesh_.patch_count, 0.0);
     takeReceived([&](std::uint32_t e, double f) { per_patch[mesh_.element_patch[e]] += f; });
     Row out;
@@ -110,13 +111,11 @@ class Hemicube final : public FormFactorMethod {
 
  private:
   Column shotBy(std::uint32_t q, bool draft) {
-    const std::uint32_t side_index = mesh_.patch_side[q];
-    const Side& side = mesh_.sides[side_index];
     begin();
-    const Region whole = regionOfPatch(mesh_, side.surface, q - side.first_patch);
+    const Region whole = regionOfPatch(mesh_, q);
     drafting_ = draft;
     cut_short_ = false;
-    shoot(whole, side, draft ? 0 : kMostSplits, 1 / whole.area);
+    shoot(whole, draft ? 0 : kMostSplits, 1 / whole.area);
     Column out;
     if (cut_short_) out.quality = ColumnQuality::kOnePoint;
     takeReceived([&](std::uint32_t e, double f) {
@@ -150,7 +149,7 @@ class Hemicube final : public FormFactorMethod {
     begin();
     const Region whole = groups_.region(group);
     drafting_ = true;
-    shoot(whole, mesh_.sides[mesh_.patch_side[groups_.members(group).front()]], 0, 1 / whole.area);
+    shoot(whole, 0, 1 / whole.area);
     GroupView view;
     takeReceived([&](std::uint32_t e, double f) { view.received.emplace_back(e, static_cast<float>(f)); });
     view.escape = escape_;
@@ -219,7 +218,8 @@ class Hemicube final : public FormFactorMethod {
 
   // Shoots from the region or, where its view is too near for one point, from its parts. Adds share = area *
   // per_area in all.
-  void shoot(const Region& region, const Side& side, int splits, double per_area) {
+  void shoot(const Region& region, int splits, double per_area) {
+    const Side& side = mesh_.sides[region.side];
     const bool emits = emitters_.isLarge(side, region.area);
     const HemicubeLayout layout{emits ? emitter_resolution_ : resolution_};
     const std::vector<double>& delta = deltas(layout);
@@ -234,7 +234,7 @@ class Hemicube final : public FormFactorMethod {
       if (near > kNearShare && splits == 0) {
         cut_short_ = true;
       } else if (near > kNearShare) {
-        for (const Region& part : partsOf(mesh_, region)) shoot(part, side, splits - 1, per_area);
+        for (const Region& part : partsOf(mesh_, region)) shoot(part, splits - 1, per_area);
         return;
       }
     }

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <span>
 #include <utility>
@@ -55,9 +56,9 @@ class HemicubeSight final : public Visibility {
   double escaping(std::uint32_t q) override {
     begin(q);
     const Picture& picture = pictures(q, 0)[0];
-    if (delta_.size() != picture.patch.size()) delta_ = deltaFormFactors(picture.layout);
+    if (delta_.size() != picture.element.size()) delta_ = deltaFormFactors(picture.layout);
     double out = 0;
-    for (std::size_t k = 0; k < delta_.size(); ++k) out += picture.patch[k] == kNone ? delta_[k] : 0;
+    for (std::size_t k = 0; k < delta_.size(); ++k) out += picture.element[k] == kNone ? delta_[k] : 0;
     return std::max(out, 0.0);
   }
 
@@ -69,7 +70,7 @@ class HemicubeSight final : public Visibility {
     HemicubeFrame frame;
     HemicubeFaces faces;
     HemicubeLayout layout;
-    std::vector<std::uint32_t> patch;  // per pixel: what it sees; kNone: nothing, kLost: in doubt
+    std::vector<std::uint32_t> element;  // per pixel: what it sees; kNone: nothing, kLost: in doubt
   };
 
   bool emits(std::uint32_t q) const {
@@ -94,32 +95,41 @@ class HemicubeSight final : public Visibility {
     return out;
   }
 
+  // Of the sides that make the patch, the one that the point lies on.
+  const Side& sideAt(std::uint32_t q, const glm::dvec3& point) const {
+    const auto parts = mesh_.partsOf(q);
+    const auto distance = [&](std::uint32_t part) {
+      const Surface& surface = mesh_.surfaces[mesh_.sides[mesh_.patch_parts[part].side].surface];
+      const glm::dvec2 at = surface.chart(point);
+      return glm::distance(point, surface.point(glm::clamp(at, glm::dvec2(0.0), surface.extent)));
+    };
+    const std::uint32_t nearest = *std::min_element(
+        parts.begin(), parts.end(), [&](auto a, auto b) { return distance(a) < distance(b); });
+    return mesh_.sides[mesh_.patch_parts[nearest].side];
+  }
+
   Picture pictureFrom(std::uint32_t q, const glm::dvec3& point) {
-    const Side& side = mesh_.sides[mesh_.patch_side[q]];
+    const Side& side = sideAt(q, point);
     const Surface& surface = mesh_.surfaces[side.surface];
     const HemicubeFrame frame = turnedHemicube(mesh_, side.surface, side, surface.chart(point),
                                                1e-3 * std::sqrt(mesh_.patch_area[q]), seed_);
     Picture out{frame, HemicubeFaces(frame), {emits(q) ? emitterResolution() : resolution_}, {}};
     const HemicubeView::Result seen = chosen_.view->look(out.frame, out.layout);
     ++drawn_;
-    out.patch.resize(seen.items.size());
-    for (std::size_t k = 0; k < out.patch.size(); ++k) {
-      const std::uint32_t element = elements_.at(seen.items, out.layout, k);
-      out.patch[k] =
-          element == kNone || element == ItemElements::kLost ? element : mesh_.element_patch[element];
-    }
+    out.element.resize(seen.items.size());
+    for (std::size_t k = 0; k < out.element.size(); ++k)
+      out.element[k] = elements_.at(seen.items, out.layout, k);
     return out;
   }
 
   // The mean over the hemicubes of this level, each by its own kernel.
   double share(const ReceiverView& from, std::uint32_t q, std::size_t level) {
-    const glm::dvec3& normal = mesh_.sides[mesh_.patch_side[q]].normal;
     double all = 0, visible = 0, seeing = 0;
     const std::vector<Picture>& taken = pictures(q, level);
     for (const Picture& picture : taken) {
       const glm::dvec3 to = picture.frame.eye - from.position;
       const double square = glm::dot(to, to), near = std::max(glm::dot(to, from.normal), 0.0),
-                   far = std::max(-glm::dot(to, normal), 0.0);
+                   far = std::max(-glm::dot(to, picture.frame.normal), 0.0);
       const double kernel = near * far / (square * square);  // 0 below the horizon: not hidden, not there
       const bool sees_it = sees(picture, from);
       all += kernel;
@@ -130,9 +140,9 @@ class HemicubeSight final : public Visibility {
     return all > 0 ? visible / all : seeing / static_cast<double>(taken.size());
   }
 
-  // Whether the surface of a patch stands between the eye and the point.
-  bool hides(std::uint32_t patch, const glm::dvec3& eye, const ReceiverView& from) const {
-    const Side& side = mesh_.sides[mesh_.patch_side[patch]];
+  // Whether the surface of an element stands between the eye and the point.
+  bool hides(std::uint32_t element, const glm::dvec3& eye, const ReceiverView& from) const {
+    const Side& side = mesh_.sides[mesh_.element_side[element]];
     if (side.surface == mesh_.sides[from.side].surface) return false;
     const Surface& surface = mesh_.surfaces[side.surface];
     const double before = glm::dot(surface.normal, eye - surface.origin),
@@ -176,11 +186,11 @@ class HemicubeSight final : public Visibility {
     // another room then.
     bool same_air = false;
     for (const std::size_t k : {first, first + 1, first + n, first + n + 1}) {
-      const std::uint32_t patch = picture.patch[k];
-      if (patch == kNone) same_air = true;
-      if (patch == kNone || patch == ItemElements::kLost) continue;
-      same_air = same_air || mesh_.patch_air[patch] == mesh_.patch_air[from.patch];
-      if (hides(patch, picture.frame.eye, from)) return false;
+      const std::uint32_t element = picture.element[k];
+      if (element == kNone) same_air = true;
+      if (element == kNone || element == ItemElements::kLost) continue;
+      same_air = same_air || mesh_.patch_air[mesh_.element_patch[element]] == mesh_.patch_air[from.patch];
+      if (hides(element, picture.frame.eye, from)) return false;
     }
     return same_air;
   }

@@ -44,10 +44,11 @@ PatchGroups::PatchGroups(const Mesh& mesh, std::uint32_t most)
   for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
     const Side& side = mesh.sides[mesh.patch_side[q]];
     const Surface& surface = mesh.surfaces[side.surface];
-    const std::uint32_t node = mesh.patch_shapes[surface.patches.first + q - side.first_patch].node;
+    const std::uint32_t local = mesh.localPatch(mesh.partsOf(q)[0]);
+    const std::uint32_t node = mesh.patch_shapes[surface.patches.first + local].node;
     const auto fresh = static_cast<std::uint32_t>(members_.size());
     group_[q] = fresh;
-    if (side.emission == glm::dvec3(0.0)) {
+    if (side.emission == glm::dvec3(0.0) && !mesh.joined(q)) {
       const std::uint32_t top = top_of[node] == kNone ? node : top_of[node];
       group_[q] = found.try_emplace({mesh.patch_side[q], top, mesh.patch_air[q]}, fresh).first->second;
     }
@@ -58,12 +59,11 @@ PatchGroups::PatchGroups(const Mesh& mesh, std::uint32_t most)
 
 Region PatchGroups::region(std::uint32_t group) const {
   const std::vector<std::uint32_t>& members = members_[group];
-  const Side& side = mesh_.sides[mesh_.patch_side[members.front()]];
   std::vector<Region> parts;
   glm::dvec2 moment(0.0);
   double area = 0;
   for (const std::uint32_t q : members) {
-    parts.push_back(regionOfPatch(mesh_, side.surface, q - side.first_patch));
+    parts.push_back(regionOfPatch(mesh_, q));
     area += mesh_.patch_area[q];
     moment += mesh_.patch_area[q] * parts.back().sample;
   }

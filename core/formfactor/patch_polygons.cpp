@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "formfactor/regions.h"
 
@@ -14,6 +15,9 @@ namespace {
 // Of the scene's diagonal. Surfaces that meet do so to rounding, and a point beside a patch must not see it
 // from above, where it fills half of the view.
 constexpr double kMargin = 1e-6;
+
+// A patch of several surfaces is looked at as a few points from farther away than so many radii.
+constexpr double kFarJoined = 4;
 
 // Steps of a sequence that spreads evenly with radicalInverse: the inverse of the plastic number.
 constexpr double kPlastic = 0.7548776662466927;
@@ -54,39 +58,87 @@ PatchPolygons::PatchPolygons(const Mesh& mesh, const CancelToken& cancel)
   const std::vector<std::vector<std::uint32_t>> pieces = piecesOfPatches(in, cancel);
   for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
     cancel.check();
-    const Surface& surface = in.surfaces[in.sides[in.patch_side[q]].surface];
-    collect(in, q, pieces[surface.patches.first + q - in.sides[in.patch_side[q]].first_patch]);
+    collect(in, q, pieces);
   }
 }
 
 // A whole rectangle where the patch is one, else the pieces of its elements.
-void PatchPolygons::collect(const Mesh& mesh, std::uint32_t q, std::span<const std::uint32_t> pieces) {
+void PatchPolygons::collect(const Mesh& mesh, std::uint32_t q, const Pieces& pieces) {
   Patch& patch = patches_[q];
-  const Side& side = mesh.sides[mesh.patch_side[q]];
-  const Surface& surface = mesh.surfaces[side.surface];
-  const std::uint32_t local = q - side.first_patch;
-  patch.surface = side.surface;
-  patch.normal = side.normal;
-  const Region region = regionOfPatch(mesh, side.surface, local);
-  patch.centre = surface.point(region.sample);
-  glm::dvec2 low = surface.extent, high(0.0);
+  const Region region = regionOfPatch(mesh, q);
+  const Surface& middlemost = mesh.surfaces[region.surface];
+  patch.surface = mesh.joined(q) ? kNone : region.surface;
+  patch.normal = mesh.sides[region.side].normal;
+  patch.centre = middlemost.point(region.sample);
+  glm::dvec2 low = middlemost.extent, high(0.0);
   std::vector<std::vector<glm::dvec3>> outlines;
-  for (const std::uint32_t p : pieces) {
-    outlines.push_back(outlineOf(mesh, side, mesh.pieces[p]));
-    for (const PieceCorner& corner : mesh.cornersOf(mesh.pieces[p])) {
-      low = glm::min(low, corner.uv);
-      high = glm::max(high, corner.uv);
+  for (const std::uint32_t part : mesh.partsOf(q)) {
+    const Side& side = mesh.sides[mesh.patch_parts[part].side];
+    const Surface& surface = mesh.surfaces[side.surface];
+    for (const std::uint32_t p : pieces[surface.patches.first + mesh.localPatch(part)]) {
+      outlines.push_back(outlineOf(mesh, side, mesh.pieces[p]));
+      for (const PieceCorner& corner : mesh.cornersOf(mesh.pieces[p])) {
+        low = glm::min(low, corner.uv);
+        high = glm::max(high, corner.uv);
+      }
     }
   }
   const double rectangle = (high.x - low.x) * (high.y - low.y);
-  if (std::abs(mesh.patch_area[q] - rectangle) <= 1e-9 * rectangle) {
+  if (!patch.joined() && std::abs(mesh.patch_area[q] - rectangle) <= 1e-9 * rectangle) {
     patch.rectangle = true;
-    outlines = {{surface.point(low), surface.point({high.x, low.y}), surface.point(high),
-                 surface.point({low.x, high.y})}};
-    if (side.back) std::reverse(outlines[0].begin(), outlines[0].end());
+    outlines = {{middlemost.point(low), middlemost.point({high.x, low.y}), middlemost.point(high),
+                 middlemost.point({low.x, high.y})}};
+    if (mesh.sides[region.side].back) std::reverse(outlines[0].begin(), outlines[0].end());
   }
   for (std::vector<glm::dvec3>& outline : outlines) patch.parts.emplace_back(std::move(outline));
   enclose(patch);
+  if (patch.joined()) join(patch);
+}
+
+void PatchPolygons::join(Patch& patch) const {
+  std::vector<const FactorPolygon*> parts;
+  for (const FactorPolygon& part : patch.parts) {
+    parts.push_back(&part);
+    patch.mean_normal += part.area() * part.normal();
+  }
+  patch.mean_normal = glm::normalize(patch.mean_normal);
+  for (const FactorPolygon* part : parts)
+    patch.most_slant = std::max(patch.most_slant, glm::length(glm::cross(patch.mean_normal, part->normal())));
+  // Quarters of about as many parts that lie together.
+  const auto halve = [](std::span<const FactorPolygon*> in) {
+    glm::dvec3 low = in[0]->centre(), high = low;
+    for (const FactorPolygon* part : in) {
+      low = glm::min(low, part->centre());
+      high = glm::max(high, part->centre());
+    }
+    const glm::dvec3 size = high - low;
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    std::stable_sort(in.begin(), in.end(),
+                     [axis](auto a, auto b) { return a->centre()[axis] < b->centre()[axis]; });
+    return in.size() / 2;
+  };
+  const auto share = [&](std::span<const FactorPolygon*> in) {
+    Share out;
+    double area = 0;
+    for (const FactorPolygon* part : in) {
+      area += part->area();
+      out.middle += part->area() * part->centre();
+      out.vector_area += part->area() * part->normal();
+    }
+    out.middle /= area;
+    if (area > 0) patch.shares.push_back(out);
+  };
+  const std::span<const FactorPolygon*> all(parts);
+  const std::size_t middle = halve(all);
+  for (const std::span<const FactorPolygon*> half : {all.first(middle), all.subspan(middle)}) {
+    if (half.size() < 2) {
+      share(half);
+      continue;
+    }
+    const std::size_t quarter = halve(half);
+    share(half.first(quarter));
+    share(half.subspan(quarter));
+  }
 }
 
 void PatchPolygons::enclose(Patch& patch) const {
@@ -106,11 +158,33 @@ void PatchPolygons::enclose(Patch& patch) const {
 
 bool PatchPolygons::isSeen(const Patch& patch, std::uint32_t q, const glm::dvec3& point,
                            const glm::dvec3& normal) const {
-  if (glm::dot(patch.normal, point - patch.parts[0].centre()) <= margin_) return false;
+  if (!patch.joined() && glm::dot(patch.normal, point - patch.parts[0].centre()) <= margin_) return false;
   // The sphere around it first: it needs no pass over the corners.
   const double height = glm::dot(normal, patch.middle - point);
   if (height <= margin_ - patch.radius) return false;
   return height > margin_ + patch.radius || glm::dot(normal, highest(q, normal).at - point) > margin_;
+}
+
+// As quickFactor, of a patch of several surfaces that is above the horizon.
+double PatchPolygons::joinedFactor(const Patch& patch, const glm::dvec3& point, const glm::dvec3& normal,
+                                   std::vector<glm::dvec3>& scratch) const {
+  const glm::dvec3 to = patch.middle - point;
+  const double distance = glm::length(to), facing = -glm::dot(to, patch.mean_normal),
+               slant = patch.most_slant * distance + patch.radius;
+  if (facing < -slant) return 0;
+  double sum = 0;
+  if (facing > slant && distance > kFarJoined * patch.radius && glm::dot(to, normal) > patch.radius) {
+    for (const Share& share : patch.shares) {
+      const glm::dvec3 d = share.middle - point;
+      const double square = glm::dot(d, d);
+      sum -= glm::dot(d, share.vector_area) * glm::dot(d, normal) / (square * square);
+    }
+    return sum / std::numbers::pi;
+  }
+  for (const FactorPolygon& part : patch.parts) {
+    if (glm::dot(part.normal(), point - part.centre()) > margin_) sum += part.rough(point, normal, scratch);
+  }
+  return std::max(sum, 0.0);
 }
 
 double PatchPolygons::factor(std::uint32_t q, const glm::dvec3& point, const glm::dvec3& normal,
@@ -118,7 +192,10 @@ double PatchPolygons::factor(std::uint32_t q, const glm::dvec3& point, const glm
   const Patch& patch = patches_[q];
   if (!isSeen(patch, q, point, normal)) return 0;
   double sum = 0;
-  for (const FactorPolygon& part : patch.parts) sum += part.exact(point, normal, scratch);
+  for (const FactorPolygon& part : patch.parts) {
+    if (!patch.joined() || glm::dot(part.normal(), point - part.centre()) > margin_)
+      sum += part.exact(point, normal, scratch);
+  }
   return std::max(sum, 0.0);
 }
 
@@ -126,6 +203,7 @@ double PatchPolygons::quickFactor(std::uint32_t q, const glm::dvec3& point, cons
                                   std::vector<glm::dvec3>& scratch) const {
   const Patch& patch = patches_[q];
   if (!isSeen(patch, q, point, normal)) return 0;
+  if (patch.joined()) return joinedFactor(patch, point, normal, scratch);
   double sum = 0;
   for (const FactorPolygon& part : patch.parts) sum += part.quick(point, normal, scratch);
   return std::max(sum, 0.0);

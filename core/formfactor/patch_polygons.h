@@ -24,6 +24,7 @@ class PatchPolygons {
   /// The same but for FactorPolygon::quick.
   double quickFactor(std::uint32_t q, const glm::dvec3& point, const glm::dvec3& normal,
                      std::vector<glm::dvec3>& scratch) const;
+  /// kNone where it lies on several surfaces.
   std::uint32_t surface(std::uint32_t q) const { return patches_[q].surface; }
   /// Its pieces, or itself where it is a rectangle.
   std::span<const FactorPolygon> parts(std::uint32_t q) const { return patches_[q].parts; }
@@ -42,6 +43,9 @@ class PatchPolygons {
   double radius(std::uint32_t q) const { return patches_[q].radius; }
 
  private:
+  struct Share {
+    glm::dvec3 middle{0.0}, vector_area{0.0};  // [m^2] along the normal
+  };
   struct Patch {
     std::vector<FactorPolygon> parts;
     glm::dvec3 middle{0.0}, normal{0.0};
@@ -49,8 +53,17 @@ class PatchPolygons {
     double radius = 0;
     std::uint32_t surface = 0;
     bool rectangle = false;
+    // Of several surfaces:
+    std::vector<Share> shares;  // what stands for it from afar
+    glm::dvec3 mean_normal{0.0};
+    double most_slant = 0;  // sine of the largest angle between that and a part's normal
+    bool joined() const { return surface == kNone; }
   };
-  void collect(const Mesh& mesh, std::uint32_t q, std::span<const std::uint32_t> pieces);
+  using Pieces = std::vector<std::vector<std::uint32_t>>;  // one list for each of Mesh::patch_shapes
+  void collect(const Mesh& mesh, std::uint32_t q, const Pieces& pieces);
+  void join(Patch& patch) const;
+  double joinedFactor(const Patch& patch, const glm::dvec3& point, const glm::dvec3& normal,
+                      std::vector<glm::dvec3>& scratch) const;
   void enclose(Patch& patch) const;
   bool isSeen(const Patch& patch, std::uint32_t q, const glm::dvec3& point, const glm::dvec3& normal) const;
 

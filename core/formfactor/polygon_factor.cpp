@@ -48,6 +48,7 @@ FactorPolygon::FactorPolygon(std::vector<glm::dvec3> corners) : corners_(std::mo
   const double size = glm::length(area);
   if (size <= 0) return;
   normal_ = area / size;
+  area_ = size;
   const bool parallelogram =
       n == 4 && glm::distance(corners_[1] - corners_[0], corners_[2] - corners_[3]) <= kAlike * radius_;
   if (parallelogram) {
@@ -69,15 +70,28 @@ void FactorPolygon::addTriangle(const glm::dvec3& a, const glm::dvec3& b, const 
 double FactorPolygon::quick(const glm::dvec3& point, const glm::dvec3& normal,
                             std::vector<glm::dvec3>& scratch) const {
   const glm::dvec3 to = centre_ - point;
+  if (glm::dot(to, normal_) >= 0) return 0;
   if (glm::dot(to, to) <= kFar * kFar * radius_ * radius_ || glm::dot(to, normal) <= radius_)
     return exact(point, normal, scratch);
+  return sampled(point, normal);
+}
+
+double FactorPolygon::rough(const glm::dvec3& point, const glm::dvec3& normal,
+                            std::vector<glm::dvec3>& scratch) const {
+  const glm::dvec3 to = centre_ - point;
+  if (glm::dot(to, normal_) >= 0 || glm::dot(to, normal) <= -radius_) return 0;
+  if (glm::dot(to, to) <= kFar * kFar * radius_ * radius_) return exact(point, normal, scratch);
+  return sampled(point, normal);
+}
+
+double FactorPolygon::sampled(const glm::dvec3& point, const glm::dvec3& normal) const {
   double sum = 0;
   for (const Sample& sample : samples_) {
     const glm::dvec3 d = sample.at - point;
     const double square = glm::dot(d, d);
-    sum += sample.area * glm::dot(d, normal) / (square * square);
+    sum += sample.area * std::max(glm::dot(d, normal), 0.0) / (square * square);
   }
-  return sum * -glm::dot(to, normal_) / std::numbers::pi;
+  return sum * -glm::dot(centre_ - point, normal_) / std::numbers::pi;
 }
 
 }  // namespace unshot

@@ -22,27 +22,33 @@ class FactorPolygon {
 
   const std::vector<glm::dvec3>& corners() const { return corners_; }
   const glm::dvec3& centre() const { return centre_; }  ///< the mean of its corners
+  const glm::dvec3& normal() const { return normal_; }  ///< unit length
+  double area() const { return area_; }                 ///< [m^2]
   double radius() const { return radius_; }             ///< of a sphere around the centre [m]
 
   /// pointToPolygonFactor.
   double exact(const glm::dvec3& point, const glm::dvec3& normal, std::vector<glm::dvec3>& scratch) const {
     return pointToPolygonFactor(point, normal, corners_, scratch);
   }
-  /// The same within 0.3 % and a good deal sooner: from farther away than four radii, and wholly above the
-  /// horizon, as a sum over a few points of the polygon (Gauss's rule on a parallelogram, Hammer and Stroud's
-  /// on a triangle).
+  /// The same, but 0 from behind, within 0.3 % and a good deal sooner: from farther away than four radii, and
+  /// wholly above the horizon, as a sum over a few points of the polygon (Gauss's rule on a parallelogram,
+  /// Hammer and Stroud's on a triangle).
   double quick(const glm::dvec3& point, const glm::dvec3& normal, std::vector<glm::dvec3>& scratch) const;
+  /// As quick, for one of many polygons: from farther away than four radii each point of it is above the
+  /// horizon or below with all that it stands for.
+  double rough(const glm::dvec3& point, const glm::dvec3& normal, std::vector<glm::dvec3>& scratch) const;
 
  private:
   struct Sample {
     glm::dvec3 at;
     double area;
   };
+  double sampled(const glm::dvec3& point, const glm::dvec3& normal) const;
   void addTriangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 
   std::vector<glm::dvec3> corners_;
   glm::dvec3 centre_{0.0}, normal_{0.0};
-  double radius_ = 0;
+  double area_ = 0, radius_ = 0;
   std::vector<Sample> samples_;
 };
 

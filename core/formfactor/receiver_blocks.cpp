@@ -94,8 +94,9 @@ ReceiverBlocks receiverBlocks(const Mesh& mesh, const Receivers& receivers, cons
     cancel.check();
     const Surface& surface = base.surfaces[side.surface];
     Grid grid(surface, receivers);
-    for (std::uint32_t q = side.first_patch; q < side.first_patch + surface.patches.count; ++q) {
-      if (lattices[q]) grid.add(*lattices[q]);
+    for (std::uint32_t k = 0; k < surface.patches.count; ++k) {
+      const auto& lattice = lattices[base.patch_parts[side.first_part + k].patch];
+      if (lattice) grid.add(*lattice);
     }
     grid.blocks(out.blocks);
   }

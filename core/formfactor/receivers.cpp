@@ -90,12 +90,52 @@ glm::dvec2 intoTriangles(std::span<const Corner> corners) {
   return inside ? mean : largest->inwards();
 }
 
+// Views of one vertex; those onto one patch of several surfaces are one, from the largest and along their
+// mean normal.
+class VertexViews {
+ public:
+  void add(const Mesh& mesh, const ReceiverView& view) {
+    const auto same = std::find_if(views_.begin(), views_.end(), [&](const Joined& other) {
+      return other.view.patch == view.patch && mesh.joined(view.patch);
+    });
+    if (same == views_.end()) {
+      views_.push_back({view, view.weight, view.weight * view.normal});
+      return;
+    }
+    const double weight = same->view.weight + view.weight;
+    if (view.weight > same->largest) {
+      same->view = view;
+      same->largest = view.weight;
+    }
+    same->view.weight = weight;
+    same->normal += view.weight * view.normal;
+    if (same->normal != glm::dvec3(0.0)) same->view.normal = glm::normalize(same->normal);
+  }
+
+  // Returns how many there were, and forgets them.
+  std::uint32_t moveTo(std::vector<ReceiverView>& out) {
+    for (const Joined& joined : views_) out.push_back(joined.view);
+    const auto count = static_cast<std::uint32_t>(views_.size());
+    views_.clear();
+    return count;
+  }
+
+ private:
+  struct Joined {
+    ReceiverView view;
+    double largest;     // weight
+    glm::dvec3 normal;  // sum by weight
+  };
+  std::vector<Joined> views_;
+};
+
 void viewsOfVertices(const Mesh& mesh, std::vector<Corner> corners, Receivers& out,
                      const CancelToken& cancel) {
   sortInBuckets(
       corners, mesh.vertices.size(), [](const Corner& c) { return c.vertex; },
       [](const Corner& a, const Corner& b) { return a.side < b.side; }, cancel);
   out.view_start.assign(mesh.vertices.size() + 1, 0);
+  VertexViews views;
   for (auto first = corners.begin(); first != corners.end();) {
     const auto end = std::find_if(first, corners.end(), [&](const Corner& c) {
       return c.vertex != first->vertex || c.side != first->side;
@@ -105,9 +145,10 @@ void viewsOfVertices(const Mesh& mesh, std::vector<Corner> corners, Receivers& o
     const double whole = out.area[first->vertex] * 3;
     const Side& side = mesh.sides[first->side];
     const glm::dvec2 at = first->at + kInset * intoTriangles({first, end});
-    out.views.push_back({mesh.surfaces[side.surface].point(at), side.normal, whole > 0 ? area / whole : 1,
-                         first->side, first->patch});
-    ++out.view_start[first->vertex + 1];
+    views.add(mesh, {mesh.surfaces[side.surface].point(at), side.normal, whole > 0 ? area / whole : 1,
+                     first->side, first->patch});
+    if (end == corners.end() || end->vertex != first->vertex)
+      out.view_start[first->vertex + 1] = views.moveTo(out.views);
     first = end;
   }
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) out.view_start[v + 1] += out.view_start[v];

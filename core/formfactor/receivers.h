@@ -27,10 +27,11 @@ struct PatchShare {
 };
 
 /// Where a vertex looks from: one view for each surface that it lies on (several where they join smoothly),
-/// so that none looks behind its surface. What it receives is their mean by weight.
+/// so that none looks behind its surface, but one for those that are one patch. What it receives is their
+/// mean by weight.
 struct ReceiverView {
   glm::dvec3 position{0.0};  ///< on the surface, moved off edges by a tenth into the triangles around
-  glm::dvec3 normal{0.0};    ///< of the surface's side
+  glm::dvec3 normal{0.0};    ///< of the surface's side; of several the mean
   double weight = 1;         ///< over the views of a receiver they sum to 1
   std::uint32_t side = 0;    ///< in Mesh::sides
   std::uint32_t patch = 0;   ///< one of those around it on that side

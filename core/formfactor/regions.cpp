@@ -1,5 +1,11 @@
 #include "formfactor/regions.h"
 
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <span>
+#include <utility>
+
 namespace unshot {
 namespace {
 
@@ -46,12 +52,61 @@ bool isFull(const Region& region) {
   return region.area >= (1 - 1e-9) * size.x * size.y;
 }
 
+Region regionOfPart(const Mesh& mesh, std::uint32_t part) {
+  const std::uint32_t side = mesh.patch_parts[part].side, patch = mesh.localPatch(part);
+  const PatchShape& shape = mesh.patch_shapes[mesh.surfaces[mesh.sides[side].surface].patches.first + patch];
+  Region out = regionOfNode(mesh, shape.node, shape.whole ? kNone : patch);
+  out.side = side;
+  return out;
+}
+
+glm::dvec3 sampleOf(const Mesh& mesh, const Region& region) {
+  return mesh.surfaces[region.surface].point(region.sample);
+}
+
+// Of several parts: as the middlemost, but for the area.
+Region regionOfParts(const Mesh& mesh, std::span<const std::uint32_t> parts) {
+  std::vector<Region> regions;
+  double area = 0;
+  glm::dvec3 moment(0.0);
+  for (const std::uint32_t part : parts) {
+    const Region& region = regions.emplace_back(regionOfPart(mesh, part));
+    area += region.area;
+    moment += region.area * sampleOf(mesh, region);
+  }
+  const auto fromMiddle = [&](const Region& region) {
+    return glm::distance(sampleOf(mesh, region), moment / area);
+  };
+  Region out = *std::min_element(regions.begin(), regions.end(), [&](const Region& a, const Region& b) {
+    return fromMiddle(a) < fromMiddle(b);
+  });
+  if (parts.size() > 1) out.parts.assign(parts.begin(), parts.end());
+  out.area = area;
+  return out;
+}
+
+// Halves of several parts, along the axis where they are farthest apart.
+std::vector<Region> halvesOf(const Mesh& mesh, std::span<const std::uint32_t> parts) {
+  std::vector<std::pair<glm::dvec3, std::uint32_t>> at;
+  for (const std::uint32_t part : parts) at.emplace_back(sampleOf(mesh, regionOfPart(mesh, part)), part);
+  glm::dvec3 low = at[0].first, high = low;
+  for (const auto& [point, part] : at) {
+    low = glm::min(low, point);
+    high = glm::max(high, point);
+  }
+  const glm::dvec3 size = high - low;
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  std::stable_sort(at.begin(), at.end(),
+                   [&](const auto& a, const auto& b) { return a.first[axis] < b.first[axis]; });
+  std::vector<std::uint32_t> sorted;
+  for (const auto& [point, part] : at) sorted.push_back(part);
+  const std::span<const std::uint32_t> all(sorted);
+  return {regionOfParts(mesh, all.first(all.size() / 2)), regionOfParts(mesh, all.subspan(all.size() / 2))};
+}
+
 }  // namespace
 
-Region regionOfPatch(const Mesh& mesh, std::uint32_t surface, std::uint32_t patch) {
-  const PatchShape& shape = mesh.patch_shapes[mesh.surfaces[surface].patches.first + patch];
-  return regionOfNode(mesh, shape.node, shape.whole ? kNone : patch);
-}
+Region regionOfPatch(const Mesh& mesh, std::uint32_t q) { return regionOfParts(mesh, mesh.partsOf(q)); }
 
 Region regionOfNode(const Mesh& mesh, std::uint32_t index, std::uint32_t patch) {
   const Node& node = mesh.nodes[index];
@@ -78,13 +133,15 @@ Region regionOfNode(const Mesh& mesh, std::uint32_t index, std::uint32_t patch) 
 }
 
 std::vector<Region> partsOf(const Mesh& mesh, const Region& region) {
+  if (!region.parts.empty()) return halvesOf(mesh, region.parts);
   std::vector<Region> out;
   const Surface& s = mesh.surfaces[region.surface];
   if (region.node != kNone && !mesh.nodes[region.node].isCell()) {
     const Node& node = mesh.nodes[region.node];
     for (std::uint32_t k = 0; k < node.child_count; ++k) {
-      const Region part = regionOfNode(mesh, node.first_child + k, region.patch);
-      if (part.area > 0) out.push_back(part);
+      Region part = regionOfNode(mesh, node.first_child + k, region.patch);
+      part.side = region.side;
+      if (part.area > 0) out.push_back(std::move(part));
     }
     return out;
   }

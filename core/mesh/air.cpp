@@ -38,7 +38,7 @@ class AirJoiner {
     const Surface& surface = mesh_.surfaces[use.surface];
     if (surface.side[back] == kNone) return kNone;
     const std::uint32_t element = surface.elements.first + mesh_.pieces[use.piece].element;
-    return mesh_.sides[surface.side[back]].first_patch + mesh_.shapes[element].patch;
+    return mesh_.sides[surface.side[back]].first_part + mesh_.shapes[element].patch;
   }
 
   std::uint32_t find(std::uint32_t q) {

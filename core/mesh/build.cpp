@@ -14,6 +14,7 @@
 #include "mesh/lit.h"
 #include "mesh/near_emitters.h"
 #include "mesh/numbering.h"
+#include "mesh/patch_parts.h"
 #include "mesh/reach.h"
 #include "mesh/weld.h"
 
@@ -177,6 +178,7 @@ void gridAll(Mesh& mesh, const std::vector<double>& sizes, bool paired, const Co
                 {}, "a larger --element-size, or --elements");
   }
   const std::uint32_t patch_cells = paired ? 2 : patchCells(elements);
+  mesh.patch_size = patch_cells * *std::max_element(sizes.begin(), sizes.end());
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
     Surface& surface = mesh.surfaces[s];
     cancel.check();
@@ -237,10 +239,11 @@ void gridForCount(Mesh& mesh, double wanted, bool paired, const Contacts& contac
                   const CancelToken& cancel) {
   double least = 0;
   for (const Surface& s : mesh.surfaces) least += litSides(s);
+  const double by_area = wanted;
   if (paired) wanted += least;
   // More sides than elements asked for: large surfaces are still cut as finely as the number says by area.
   if (least > 0.9 * wanted) {
-    gridAll(mesh, std::vector<double>(mesh.surfaces.size(), std::sqrt(mesh.lit_area / wanted)), paired,
+    gridAll(mesh, std::vector<double>(mesh.surfaces.size(), std::sqrt(mesh.lit_area / by_area)), paired,
             contacts, tolerance, cancel);
     sayCount(mesh, wanted);
     return;
@@ -334,6 +337,7 @@ Mesh meshSurfaces(SurfacesOfScene surfaces, const MeshOptions& options, const Ca
   }
   numberElements(mesh, cancel);
   makeDisplay(mesh, cancel);
+  joinSmallPatches(mesh, cancel);
   return mesh;
 }
 

@@ -62,7 +62,7 @@ struct Side {
   glm::dvec3 reflectance{0.0};      ///< rho
   glm::dvec3 emission{0.0};         ///< E [W/m^2]
   std::uint32_t first_element = 0;  ///< element of local shape k: first_element + k
-  std::uint32_t first_patch = 0;    ///< patch of local patch node k: first_patch + k
+  std::uint32_t first_part = 0;     ///< in Mesh::patch_parts: that of local patch k is first_part + k
 };
 
 /// A triangle of the scene in its surface's chart.
@@ -109,6 +109,12 @@ struct Node {
 struct PatchShape {
   std::uint32_t node = 0;
   bool whole = true;  ///< every piece in the node is of this patch
+};
+
+/// A local patch of one side: a patch of its own or, where small surfaces join smoothly, a part of one.
+struct PatchPart {
+  std::uint32_t side = 0;   ///< in Mesh::sides
+  std::uint32_t patch = 0;  ///< the patch that it belongs to
 };
 
 /// What both sides of an element share.
@@ -171,11 +177,14 @@ struct Mesh {
   std::vector<Side> sides;
   std::uint32_t element_count = 0;
   std::uint32_t patch_count = 0;
-  std::vector<std::uint32_t> element_side;   ///< one per element
-  std::vector<std::uint32_t> element_patch;  ///< one per element
-  std::vector<double> element_area;          ///< one per element [m^2]
-  std::vector<std::uint32_t> patch_side;     ///< one per patch
-  std::vector<double> patch_area;            ///< one per patch: the sum over its elements [m^2]
+  std::vector<std::uint32_t> element_side;         ///< one per element
+  std::vector<std::uint32_t> element_patch;        ///< one per element
+  std::vector<double> element_area;                ///< one per element [m^2]
+  std::vector<PatchPart> patch_parts;              ///< numbered over all sides
+  std::vector<std::uint32_t> patch_part_start{0};  ///< parts of patch q: see partsOf
+  std::vector<std::uint32_t> patch_part;           ///< in patch_parts; of each patch the middlemost first
+  std::vector<std::uint32_t> patch_side;           ///< one per patch: of its middlemost part
+  std::vector<double> patch_area;                  ///< one per patch: the sum over its elements [m^2]
   /// One per patch: equal where patches face the same air as far as the mesh shows it (mesh/air.h), an index
   /// of one of them.
   std::vector<std::uint32_t> patch_air;
@@ -198,10 +207,21 @@ struct Mesh {
   std::span<const PieceCorner> cornersOf(const Piece& piece) const {
     return {piece_corners.data() + piece.corners.first, piece.corners.count};
   }
+  /// The parts of patch q, in patch_parts, the middlemost first.
+  std::span<const std::uint32_t> partsOf(std::uint32_t q) const {
+    return {patch_part.data() + patch_part_start[q], patch_part.data() + patch_part_start[q + 1]};
+  }
+  /// Whether patch q is made of several surfaces, with normals of their own.
+  bool joined(std::uint32_t q) const { return patch_part_start[q + 1] - patch_part_start[q] > 1; }
+  /// The local patch, in its surface, of one of patch_parts.
+  std::uint32_t localPatch(std::uint32_t part) const {
+    return part - sides[patch_parts[part].side].first_part;
+  }
   /// Whether patch q is an emitter.
   bool emits(std::uint32_t q) const { return sides[patch_side[q]].emission != glm::dvec3(0.0); }
 
   double element_size = 0;  ///< edge of a full cell aimed at [m]
+  double patch_size = 0;    ///< edge of a full patch aimed at [m]
   double lit_area = 0;      ///< over sides [m^2]
   Diagnostics diagnostics;
 };

@@ -13,6 +13,7 @@ void transferMesh(Archive& a, AnyMesh& m) {
   a.fields(m.nodes, m.patch_shapes, m.shapes, m.sides);
   a.fields(m.element_count, m.patch_count);
   a.fields(m.element_side, m.element_patch, m.element_area);
+  a.fields(m.patch_parts, m.patch_part_start, m.patch_part);
   a.fields(m.patch_side, m.patch_area, m.patch_air);
   a.fields(m.vertices, m.triangle_vertices, m.triangle_element);
   const auto transferRows = [&](auto& rows) { a.fields(rows.start, rows.index, rows.weight); };
@@ -20,7 +21,7 @@ void transferMesh(Archive& a, AnyMesh& m) {
   a.fields(m.element_from_base);
   transferRows(m.vertex_from_base);
   a.fields(m.smooth_pairs);
-  a.fields(m.weld_distance, m.element_size, m.lit_area);
+  a.fields(m.weld_distance, m.element_size, m.patch_size, m.lit_area);
   a.list(m.diagnostics, [&](auto& d) { a.fields(d.severity, d.code, d.message, d.where, d.advice); });
 }
 

@@ -6,8 +6,8 @@
 
 namespace unshot {
 
-/// Fills what is numbered over all sides (but patch_air), each side's first element and patch, and
-/// element_size, from the elements and patches of the surfaces.
+/// Fills what is numbered over all sides (but patch_air), each side's first element and part of a patch, and
+/// element_size, from the elements and patches of the surfaces. Each local patch of a side is a patch.
 void numberElements(Mesh& mesh, const CancelToken& cancel = {});
 
 }  // namespace unshot

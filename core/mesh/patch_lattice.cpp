@@ -33,7 +33,8 @@ std::array<double, 9> product(std::uint32_t nu, std::uint32_t nv, const std::arr
 std::optional<PatchLattice> rectangleOf(const Mesh& mesh, std::uint32_t q) {
   const Side& side = mesh.sides[mesh.patch_side[q]];
   const Surface& surface = mesh.surfaces[side.surface];
-  const PatchShape& shape = mesh.patch_shapes[surface.patches.first + q - side.first_patch];
+  if (mesh.joined(q)) return std::nullopt;
+  const PatchShape& shape = mesh.patch_shapes[surface.patches.first + mesh.localPatch(mesh.partsOf(q)[0])];
   const Node& node = mesh.nodes[shape.node];
   PatchLattice out;
   out.nu = node.u1 - node.u0;

@@ -12,6 +12,7 @@
 #include "mesh/grid.h"
 #include "mesh/numbering.h"
 #include "mesh/patch_lattice.h"
+#include "mesh/patch_parts.h"
 
 namespace unshot {
 namespace {
@@ -317,6 +318,7 @@ Mesh refineMesh(std::shared_ptr<const Mesh> base, const std::function<bool(const
     mesh.element_from_base.push_back(mesh.base->sides[mesh.element_side[e]].first_element + of_shape[shape]);
   }
   makeDisplay(mesh, cancel);
+  joinPatchesAs(*mesh.base, mesh);
   mesh.vertex_from_base = Interpolation(mesh, cancel).run();
   return mesh;
 }
@@ -328,6 +330,7 @@ Mesh gradedMesh(const Mesh& uniform, const std::function<bool(const CellPart&)>&
   Refiner(uniform, mesh, true, split, cancel).run();
   numberElements(mesh, cancel);
   makeDisplay(mesh, cancel);
+  joinSmallPatches(mesh, cancel);
   return mesh;
 }
 

@@ -25,6 +25,9 @@ constexpr double kBaseElements = 2'500;
 constexpr double kOrder = 0.75;
 // Beyond, time grows with the square for little.
 constexpr double kFewestBase = 100, kMostBase = 10'000;
+// And so many for each lit side: as many receivers look at patches in any case, and near large ones that
+// takes longer. On teapot_box (10,062 sides), --error 0.05: with it 2 s and 4.1 %, without 15 s and 5.8 %.
+constexpr double kForSides = 0.1;
 // Rays take a look from each vertex at each patch, hemicubes a picture of each patch and no more. So many
 // looks are some ten seconds: the teapot in its box, 4e8 of them, is sooner by hemicubes, two_rooms, 4e7, by
 // rays.
@@ -56,10 +59,11 @@ std::shared_ptr<const Mesh> uniformMesh(const SurfacesOfScene& surfaces, const M
   return std::make_shared<const Mesh>(meshSurfaces(surfaces, options, cancel));
 }
 
-// As many as the error asks for, of a mesh to be refined.
-double baseElements(const SolveOptions& options) {
+// As many as the error asks for, of a mesh to be refined, which has these sides.
+double baseElements(const SolveOptions& options, std::size_t sides) {
   const double wanted = kBaseElements * std::pow(0.01 / options.error, 1 / kOrder);
-  return std::min(std::clamp(wanted, kFewestBase, kMostBase), static_cast<double>(options.max_elements));
+  const double fewest = std::max(kFewestBase, kForSides * static_cast<double>(sides));
+  return std::min(std::min(std::max(wanted, fewest), kMostBase), static_cast<double>(options.max_elements));
 }
 
 // The mesh to be refined.
@@ -86,7 +90,7 @@ std::shared_ptr<const Mesh> coarseMesh(const SurfacesOfScene& surfaces, const So
                                        const MeshOptions& mesh_options,
                                        const std::shared_ptr<const Mesh>& coarsest,
                                        std::vector<PlanDecision>& plan, const CancelToken& cancel) {
-  const double usual = baseElements(options);
+  const double usual = baseElements(options, surfaces.mesh.sides.size());
   if (!mayBeCoarse(*coarsest, usual)) return nullptr;
   LightRefinement refinement = refinementFor(options, "closed-form");
   refinement.error *= kFinerLight;
@@ -138,8 +142,9 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
   }
   const bool coarse = coarsest && out.mesh;
   const auto meshed = [&](bool refinable) {
-    return refinable ? baseMesh(*surfaces, mesh_options, baseElements(options), cancel)
-                     : uniformMesh(*surfaces, mesh_options, cancel);
+    return refinable
+               ? baseMesh(*surfaces, mesh_options, baseElements(options, surfaces->mesh.sides.size()), cancel)
+               : uniformMesh(*surfaces, mesh_options, cancel);
   };
   if (!out.mesh) out.mesh = meshed(to_refine);
   if (undecided) {

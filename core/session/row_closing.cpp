@@ -13,6 +13,9 @@ namespace {
 constexpr double kClosedGain = 1, kOpenGain = 4;
 // What an exact form factor lacks to 1 at most where nothing escapes.
 constexpr double kExactRounding = 1e-6;
+// Of the columns: in a closed scene so many at least are there when the rest are computed for it. With fewer
+// (many small patches that matter little) that takes longer than all before.
+constexpr double kMostAreThere = 2.0 / 3;
 // Row sums are off by more than this before a word is said.
 constexpr double kWorthAWord = 0.002;
 
@@ -69,10 +72,15 @@ bool Solve::Impl::closeRows() {
 
 // Where much is reflected and each patch has shot about once: what is shot along rows that are open goes to
 // waste. Elsewhere they wait for the end.
-bool Solve::Impl::closureIsUrgent() const {
+bool Solve::Impl::closureIsUrgent() {
   if (!closureIsDue()) return false;
   const bool reached = measures.solverBound() <= target();
-  return reached || closure_hurries || (high_gain && measures.shots > transport->patchCount());
+  const double known = static_cast<double>(transport->count(ColumnQuality::kFull));
+  if (reached && !high_gain && !closure_hurries && form_factors_key != "closed-form" &&
+      known < kMostAreThere * static_cast<double>(transport->patchCount()))
+    closure_pending = false;
+  return closure_pending &&
+         (reached || closure_hurries || (high_gain && measures.shots > transport->patchCount()));
 }
 
 }  // namespace unshot

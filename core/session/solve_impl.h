@@ -116,7 +116,7 @@ struct Solve::Impl {
   void planClosure(const CancelToken& cancel);
   void noteOpening(double escape);
   bool closureIsDue() const;
-  bool closureIsUrgent() const;
+  bool closureIsUrgent();
   bool closeRows();
   bool iterate(std::uint64_t most_shots);
 

@@ -23,7 +23,7 @@ using testing_support::HemicubeCost;
 std::vector<double> denseColumn(const Mesh& mesh, HemicubePicture& picture, std::uint32_t patch, Dice& dice) {
   const Side& side = mesh.sides[mesh.patch_side[patch]];
   const Surface& surface = mesh.surfaces[side.surface];
-  std::vector<Region> parts{regionOfPatch(mesh, side.surface, patch - side.first_patch)};
+  std::vector<Region> parts{regionOfPatch(mesh, patch)};
   const double area = parts[0].area;
   while (parts.size() < 64) {
     std::vector<Region> finer;

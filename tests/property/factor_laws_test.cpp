@@ -58,8 +58,7 @@ std::vector<std::uint32_t> someOf(std::uint32_t n, std::uint32_t count, std::uin
 
 glm::dvec3 centreOf(const Mesh& mesh, std::uint32_t patch) {
   const Side& side = mesh.sides[mesh.patch_side[patch]];
-  return mesh.surfaces[side.surface].point(
-      regionOfPatch(mesh, side.surface, patch - side.first_patch).sample);
+  return mesh.surfaces[side.surface].point(regionOfPatch(mesh, patch).sample);
 }
 
 // Where a block stands on a floor, patches below it too.
@@ -226,7 +225,7 @@ TEST(HemicubeColumns, ComeCloserToClosedFormsTheFinerTheirPixelsAre) {
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const Side& side = mesh.sides[mesh.patch_side[patches[i]]];
     const Surface& surface = mesh.surfaces[side.surface];
-    const Region region = regionOfPatch(mesh, side.surface, patches[i] - side.first_patch);
+    const Region region = regionOfPatch(mesh, patches[i]);
     const std::vector<glm::dvec3> ring{
         surface.point(region.low), surface.point({region.high.x, region.low.y}), surface.point(region.high),
         surface.point({region.low.x, region.high.y})};

@@ -32,7 +32,18 @@ inline void expectAreasAddUp(const Mesh& mesh) {
     EXPECT_GT(mesh.element_area[e], 0);
     elements[mesh.element_side[e]] += mesh.element_area[e];
   }
-  for (std::size_t q = 0; q < mesh.patch_count; ++q) patches[mesh.patch_side[q]] += mesh.patch_area[q];
+  for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
+    if (!mesh.joined(q)) {
+      patches[mesh.patch_side[q]] += mesh.patch_area[q];
+      continue;
+    }
+    double area = 0;
+    for (const std::uint32_t part : mesh.partsOf(q)) {
+      const std::uint32_t side = mesh.patch_parts[part].side;
+      area += patches[side] = mesh.surfaces[mesh.sides[side].surface].area;
+    }
+    EXPECT_NEAR(mesh.patch_area[q], area, 1e-9 * area) << "patch " << q;
+  }
   double lit = 0;
   for (std::size_t k = 0; k < mesh.sides.size(); ++k) {
     const double area = mesh.surfaces[mesh.sides[k].surface].area;

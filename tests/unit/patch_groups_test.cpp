@@ -63,7 +63,10 @@ TEST_P(PatchGroupsOf, AreShotFromAPointOfTheirOwnAndHaveTheirArea) {
     const std::uint32_t element = elementAt(mesh, surface, region.sample, tolerance);
     ASSERT_NE(element, kNone) << "the point lies outside the surface";
     const Side& side = mesh.sides[mesh.patch_side[groups.members(g).front()]];
-    EXPECT_EQ(groups.of(side.first_patch + mesh.shapes[surface.elements.first + element].patch), g);
+    EXPECT_EQ(
+        groups.of(
+            mesh.patch_parts[side.first_part + mesh.shapes[surface.elements.first + element].patch].patch),
+        g);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <set>
 
@@ -95,6 +96,7 @@ TEST(VertexReceivers, LookFromElementsAroundThem) {
   }
 }
 
+// Or from each patch of several surfaces, along the mean of their normals.
 TEST(VertexReceivers, LookFromEachSurfaceWhereSurfacesJoinSmoothly) {
   const Mesh mesh = buildMesh(concentricSpheres(0.5, 1, 0.5, 0, 12), {600, {}, false});
   const Receivers receivers = makeReceivers(mesh, ReceiverKind::kVertices);
@@ -104,13 +106,17 @@ TEST(VertexReceivers, LookFromEachSurfaceWhereSurfacesJoinSmoothly) {
     for (const ReceiverView& view : receivers.viewsOf(v)) {
       const Surface& surface = mesh.surfaces[mesh.sides[view.side].surface];
       EXPECT_NEAR(glm::dot(view.position - surface.origin, surface.normal), 0, 1e-12);
-      EXPECT_EQ(view.normal, mesh.sides[view.side].normal);
+      if (mesh.joined(view.patch)) {
+        EXPECT_GT(glm::dot(view.normal, mesh.sides[view.side].normal), std::cos(0.7));
+      } else {
+        EXPECT_EQ(view.normal, mesh.sides[view.side].normal);
+      }
       weights += view.weight;
     }
     EXPECT_NEAR(weights, 1, 1e-12);
     most = std::max(most, receivers.viewsOf(v).size());
   }
-  EXPECT_GE(most, 4u);
+  EXPECT_GE(most, 3u);
 }
 
 }  // namespace

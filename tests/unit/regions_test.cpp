@@ -35,8 +35,7 @@ TEST(Regions, OfPatchesHaveTheirAreaAndPartsThatAddUp) {
   for (const Scene& scene : {lShapedRoom(), blockOnFloor(0.3), publishedCornellBox()}) {
     const Mesh mesh = buildMesh(scene, {3000, {}, false});
     for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
-      const Side& side = mesh.sides[mesh.patch_side[q]];
-      const Region region = regionOfPatch(mesh, side.surface, q - side.first_patch);
+      const Region region = regionOfPatch(mesh, q);
       // A patch that reaches into a neighbour's node with a joined sliver is shot from its own node alone.
       EXPECT_LE(region.area, mesh.patch_area[q] * (1 + 1e-9)) << "patch " << q;
       EXPECT_GE(region.area, mesh.patch_area[q] * 0.5) << "patch " << q;
