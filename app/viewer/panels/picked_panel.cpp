@@ -84,7 +84,11 @@ void cells(const PickedPoint& point, const Mesh& mesh) {
 
 void decisions(const PickedPoint& point) {
   if (point.decisions.empty()) {
+    ImGui::BeginGroup();
     paragraph("Plan", "Nothing is left out here.");
+    ImGui::EndGroup();
+    tooltip(
+        "What the solve does not compute for this surface, as the result is the same without it: nothing");
     return;
   }
   for (std::size_t k = 0; k < point.decisions.size(); ++k) {
@@ -93,7 +97,8 @@ void decisions(const PickedPoint& point) {
     paragraph(k == 0 ? "Plan" : "", decision.text);
     ImGui::EndGroup();
     const PlanRow& row = findChoice(planRows(), decision.key, "decision of the plan");
-    tooltip(std::string(row.info.title) + "; " + std::string(row.sure) + ". More under \"Left out\"");
+    tooltip("What the solve does not compute for this surface, as the result is the same without it: " +
+            std::string(row.info.title) + "; " + std::string(row.sure) + ". More under \"Left out\"");
   }
 }
 
