@@ -131,7 +131,8 @@ void Viewer::noteSky() {
   const Diagnostics& notes = state_->facts->diagnostics;
   const auto sky =
       std::find_if(notes.begin(), notes.end(), [](const Diagnostic& d) { return d.code == "sky"; });
-  if (sky != notes.end()) notice(windowWords(sky->message + ". To change it: " + sky->advice));
+  if (sky != notes.end())
+    notice("No light of its own: " + windowWords(sky->message + ". To change it: " + sky->advice));
 }
 
 void Viewer::takeMaterials() {

@@ -6,6 +6,7 @@
 #include <imgui_internal.h>
 
 #include "base/clock.h"
+#include "gui/support/gui_layout.h"
 #include "support/live_viewer.h"
 #include "support/temp_folder.h"
 #include "viewer/window_words.h"
@@ -119,6 +120,44 @@ TEST(ViewerMessages, AreNotInAPictureButOverTheScene) {
   live->perform("dismiss");
   ASSERT_TRUE(live.until([&] { return live->nextFrame(0) > 1e30; }));
   EXPECT_FALSE(window->Active);
+}
+
+/// The letters of what scrolls in the panel.
+std::string panelText() {
+  std::string out;
+  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+    if (!window->Active || !std::string(window->Name).starts_with("panel/sections")) continue;
+    for (const testing_support::Letter& letter :
+         testing_support::Letters(*ImGui::GetIO().Fonts).of(*window->DrawList))
+      out += letter.text;
+  }
+  return out;
+}
+
+TEST(ViewerMessages, AreListedAtTheEndOfThePanel) {
+  LiveViewer::Options options = box();
+  options.height = 2000;  // all of the panel is in it
+  LiveViewer live(options);
+  ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
+  live.draw();
+  EXPECT_THAT(panelText(), testing::Not(HasSubstr("Messages")));
+  live->perform("display", "zebra");
+  live->perform("dismiss");
+  live->perform("next-display");
+  for (int frame = 0; frame < 3; ++frame) live.draw();
+  EXPECT_THAT(panelText(), HasSubstr("Messages(2)"));
+  EXPECT_THAT(panelText(), testing::Not(HasSubstr("zebra")));
+  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+    if (window->Active && std::string(window->Name).starts_with("panel/sections"))
+      ImGui::ActivateItem(ImHashStr("###messages", 0, window->ID));
+  }
+  for (int frame = 0; frame < 3; ++frame) {
+    live->input();
+    live.draw();
+  }
+  const std::string text = panelText();
+  EXPECT_LT(text.find("display:Radiosityperelement"), text.find("thereisno'zebra'")) << "the newest is first";
+  EXPECT_THAT(text, HasSubstr("thereisno'zebra'"));
 }
 
 TEST(ViewerMessages, ASecondErrorComesAfterTheFirst) {

@@ -99,7 +99,7 @@ std::string missingPanel(const Viewer& viewer, float room) {
   const std::string wider =
       countText(static_cast<std::uint64_t>(leastWindowWithPanel(viewer.scale()))) + " px";
   for (const std::string& text :
-       {"no room for the panel: a window of " + wider + " or a smaller scale (action scale) has it",
+       {"no room for the panel: a window of " + wider + " of width or a smaller scale (action scale) has it",
         "no room for the panel: " + wider + " or a smaller scale",
         "no panel: " + wider + " or smaller scale"}) {
     if (ImGui::CalcTextSize(text.c_str()).x <= room) return text;
