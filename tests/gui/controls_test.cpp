@@ -163,6 +163,44 @@ TEST_F(Controls, SlidersOfThePanelChangeWhatTheyStandFor) {
   });
 }
 
+TEST_F(Controls, ABounceIsChosenByItself) {
+  act("complete-bounces");
+  ASSERT_TRUE(live_.until([&] { return !live_->state().bounces_under_way; }));
+  frames();
+  const ImGuiWindow* panel = childOf("panel", "sections");
+  ASSERT_TRUE(panel);
+  const auto items = itemsIn(*panel, {0.1f, 0.6f});
+  const auto chart = items.find(idOf("##bounces", panel->ID)),
+             box = items.find(idOf("This bounce alone", panel->ID));
+  ASSERT_TRUE(chart != items.end());
+  ASSERT_TRUE(box != items.end());
+  const LightChoice& light = live_->settings().view.light;
+  click(box->second);
+  EXPECT_TRUE(light.all()) << "there is none to be alone";
+  act("bounces", "2");
+  click(box->second);
+  EXPECT_TRUE(light.oneBounce());
+  EXPECT_EQ(light.bounces, 2u);
+  click(box->second);
+  EXPECT_FALSE(light.oneBounce());
+  EXPECT_EQ(light.bounces, 2u);
+  // On the bar of the first bounce: the scale's figures are 3.4 letters' heights wide.
+  const float left = panel->ContentRegionRect.Min.x + 3.4f * ImGui::GetFontSize();
+  const auto bars = static_cast<float>(live_->state().snapshot->bounce_light->power.size());
+  const float slot = std::min((panel->ContentRegionRect.Max.x - left) / bars, 2.4f * ImGui::GetFontSize());
+  const ImVec2 first(left + 1.5f * slot, chart->second.y);
+  ImGui::GetIO().KeyShift = true;
+  click(first);
+  EXPECT_TRUE(light.oneBounce());
+  EXPECT_EQ(light.bounces, 1u);
+  ImGui::GetIO().KeyShift = false;
+  click(first);
+  EXPECT_FALSE(light.oneBounce());
+  EXPECT_EQ(light.bounces, 1u);
+  click(first);
+  EXPECT_TRUE(light.all()) << "once more is all light again";
+}
+
 TEST_F(Controls, SlidersOfTheLectureChangeWhatTheyStandFor) {
   act("complete-bounces");
   act("lecture-page", "matrix");
