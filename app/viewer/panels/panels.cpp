@@ -127,7 +127,8 @@ void chooseError(Viewer& viewer) {
   static constexpr std::array<Choice, 6> kChoices = {
       {{"0.1", 0.1}, {"0.03", 0.03}, {"0.01", 0.01}, {"0.003", 0.003}, {"0.001", 0.001}, {"0.0001", 0.0001}}};
   label("Stop at",
-        "The solve ends when its error is proven to be below this part of the reflected light; a smaller one "
+        "The solve ends when its error, RMS of B \u2212 B* over RMS of B* \u2212 E [%], is proven to be "
+        "below this; a smaller one "
         "goes on from "
         "there");
   const double error = viewer.ui().options.error;
@@ -173,7 +174,7 @@ void meshSection(Viewer& viewer) {
   line("Patches, elements", countText(state.facts->patches) + ", " + countText(state.facts->elements),
        "Patches shoot, elements receive; both count lit sides only");
   line("Element size", figureText(state.snapshot->mesh->element_size) + " m",
-       "Edge of a full cell aimed at; cells beside borders, contacts and small lamps are smaller");
+       "Edge of a full cell aimed at [m]; cells beside borders, contacts and small lamps are smaller");
   line("Surfaces", countText(state.facts->surfaces),
        "Polygons of one material in one plane are one surface where they join");
 }

@@ -185,7 +185,8 @@ void pickedSection(Viewer& viewer) {
        "corners of its polygons run counter-clockwise");
   line("In the file", "line " + std::to_string((*viewer.state().facts->surface_lines)[point.pick.surface]),
        "Where the scene's file has one of the surface's polygons");
-  line("Position", positionText(point.probe.position), "In the coordinates of the scene's file");
+  line("Position", positionText(point.probe.position),
+       "x, y and z in the coordinates of the scene's file [m]");
   cells(point, *snapshot.mesh);
   values(point, snapshot);
   decisions(point);
