@@ -340,9 +340,9 @@ TEST(ControlsOfTheWindow, FollowTheMouse) {
     EXPECT_TRUE(eventually([&] {
       by = by == 30 ? -30 : 30;
       move(at);
-      xdotool("mousedown 1");
-      move({at.x + static_cast<float>(by), at.y});
-      xdotool("mouseup 1");
+      // In a person's time: a click and Ctrl within one frame would be a click with Ctrl.
+      xdotool("mousedown 1 sleep 0.1 mousemove_relative -- " + std::to_string(by) +
+              " 0 sleep 0.1 mouseup 1 sleep 0.1");
       return run.scene() != scene || HasFailure();
     })) << "the picture does not follow the slider";
     scene = run.sceneAtRest();
