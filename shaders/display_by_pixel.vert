@@ -13,6 +13,7 @@ uniform vec4 eye;                 // homogeneous: at infinity where sights are p
 uniform int quantity;             // enum Quantity
 uniform bool edges;               // lines: pulled to the eye a little, clipped where their side faces away
 uniform float ambient_weight;     // 0 or 1
+uniform float emission_weight;    // the same
 uniform samplerBuffer sides;      // per side: reflectance, emission
 
 out vec3 vertex_irradiance;
@@ -33,5 +34,5 @@ void main() {
   vertex_ambient = ambient_weight * ambient;
   vertex_extra = quantity == 8 ? vec3(0.45 + 0.55 * abs(cosine)) : extra;  // 8: the shading of patches
   reflectance = texelFetch(sides, 2 * int(side)).rgb;
-  emission = texelFetch(sides, 2 * int(side) + 1).rgb;
+  emission = (quantity == 3 ? 1.0 : emission_weight) * texelFetch(sides, 2 * int(side) + 1).rgb;
 }

@@ -25,6 +25,10 @@ constexpr double kBeside = 0.02;
 // In letters' heights: a scale that has room for all its figures.
 constexpr float kWideScale = 22;
 
+std::string bouncesText(std::uint32_t bounces, bool alone) {
+  return alone ? "bounce " + countText(bounces) + " alone" : "up to " + countedText(bounces, "bounce");
+}
+
 const Snapshot& snapshotOf(const SessionState& state) {
   if (!state.snapshot) throw Error(ErrorKind::kUsage, "there is no light yet", {}, "open a scene first");
   return *state.snapshot;
@@ -34,7 +38,7 @@ std::string nameOf(const Snapshot& snapshot, const LightChoice& choice) {
   if (!choice.indirect) return "direct light alone";
   const std::string at = countedText(snapshot.measures.shots, "shot");
   const std::uint32_t bounces = shownBounces(snapshot, choice);
-  return bounces > 0 ? countedText(bounces, "bounce") : "the state at " + at;
+  return bounces > 0 ? bouncesText(bounces, choice.alone) : "the state at " + at;
 }
 
 ImU32 colourOf(double relative) {
@@ -76,9 +80,7 @@ void drawScale(ImVec2 at, float width, float em) {
 
 void differenceScale(const std::string& title, const char* unit, float room) {
   const float em = ImGui::GetFontSize(), width = std::clamp(room - 6 * em, 6 * em, 26 * em);
-  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width + 2 * em);
-  ImGui::TextUnformatted(title.c_str());
-  ImGui::PopTextWrapPos();
+  wrapped(title, width + 2 * em);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   drawScale({at.x + em, at.y}, width, em);
   ImGui::Dummy({width + 2 * em, 2.5f * em});
@@ -122,9 +124,9 @@ std::string lightText(const SessionState& state, const LightChoice& choice) {
   if (choice.all()) return {};
   if (!choice.indirect) return "direct light only";
   const std::uint32_t bounces = shownBounces(*state.snapshot, choice);
-  if (bounces > 0) return countedText(bounces, "bounce") + " only";
+  if (bounces > 0) return bouncesText(bounces, choice.alone);
   const std::string wait = bounceWaitText(state);
-  return countedText(*choice.bounces, "bounce") +
+  return bouncesText(*choice.bounces, choice.alone) +
          " not known yet, all light is shown: " + (wait.empty() ? "worked out while the solve rests" : wait);
 }
 
@@ -187,7 +189,7 @@ std::string bounceWaitText(const SessionState& state) {
   if (!state.snapshot || !state.facts) return {};
   const BounceWait& wait = state.snapshot->bounce_wait;
   if (wait.columns == 0) return {};
-  if (wait.no_room) return "form factors do not fit into their memory (--keep)";
+  if (wait.no_room) return "form factors do not fit into their memory (option --keep of unshot view)";
   return countText(wait.columns) + " of " + countText(state.facts->patches) +
          " columns of form factors are missing";
 }
@@ -206,15 +208,22 @@ std::shared_ptr<const ReferenceLight> loadedLight(const SessionState& state,
       referenceLight(snapshot.mesh, solution.radiosity, ply.filename().string()));
 }
 
+std::string differenceTitle(const SessionState& state, const ViewOptions& view) {
+  const std::string light = lightText(state, view.light);
+  const bool fits =
+      view.reference && state.snapshot && view.reference->mesh->cut == state.snapshot->mesh->cut;
+  return (light.empty() ? "all light" : light) + " \u2212 " +
+         (fits ? view.reference->name : "direct light alone") + ", of its mean reflected light";
+}
+
 void buildLegend(const SessionState& state, const ViewOptions& view, LowerEdge& edge) {
   if (!state.snapshot) return;
   const std::string light = lightText(state, view.light);
   const Quantity quantity = displayMode(view.display).quantity;
-  const bool difference = quantity == Quantity::kDifference;
   const bool colours = quantity == Quantity::kSides || quantity == Quantity::kNormals;
-  if (light.empty() && !difference && !colours) return;
+  if (light.empty() && !colours) return;
   const float em = ImGui::GetFontSize();
-  // Scales stand alone; beside the legend of false colours comes a line of text.
+  // Beside the legend of false colours, where there is room.
   const float width =
       ImGui::CalcTextSize(light.c_str()).x + 2 * ImGui::GetStyle().WindowPadding.x + 1.4f * em;
   const float bottom = edge.aboveLeft(width);
@@ -224,12 +233,7 @@ void buildLegend(const SessionState& state, const ViewOptions& view, LowerEdge& 
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing |
                    ImGuiWindowFlags_NoInputs);
-  if (difference) {
-    const bool fits = view.reference && view.reference->mesh->cut == state.snapshot->mesh->cut;
-    differenceScale((light.empty() ? "all light" : light) + " \u2212 " +
-                        (fits ? view.reference->name : "direct light alone"),
-                    "of its mean reflected light", edge.scene_width);
-  } else if (colours) {
+  if (colours) {
     colourLegend(quantity);
   } else {
     ImGui::TextUnformatted(light.c_str());

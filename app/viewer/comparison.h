@@ -30,8 +30,11 @@ std::string bounceWaitText(const SessionState& state);
 /// are parts.
 void differenceScale(const std::string& title, const char* unit, float room);
 
-/// The legend of the display mode `difference`, and a line on the part of the light that is shown, at the
-/// scene's lower left; nothing for a picture of all light.
+/// What the display mode `difference` shows: what is subtracted from what.
+std::string differenceTitle(const SessionState& state, const ViewOptions& view);
+
+/// A line on the part of the light that is shown, or the colours of sides and normals, at the scene's lower
+/// left; nothing for a picture of all light.
 void buildLegend(const SessionState& state, const ViewOptions& view, LowerEdge& edge);
 
 }  // namespace unshot

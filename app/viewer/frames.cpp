@@ -31,6 +31,15 @@ constexpr double kMeasureSeconds = 0.5;
 
 bool idle(SessionPhase phase) { return phase != SessionPhase::kRunning && phase != SessionPhase::kLoading; }
 
+/// Whether something is typed, or done with the mouse over the window.
+bool userActs() {
+  const ImGuiIO& io = ImGui::GetIO();
+  const auto down = [](bool held) { return held; };
+  return io.MouseDelta.x != 0 || io.MouseDelta.y != 0 || io.MouseWheel != 0 ||
+         std::any_of(std::begin(io.MouseDown), std::end(io.MouseDown), down) ||
+         std::any_of(std::begin(io.KeysDown), std::end(io.KeysDown), down);
+}
+
 }  // namespace
 
 double Viewer::nextFrame(double now) const { return closing_ ? now : std::min(nextPaint(), nextSceneWork()); }
@@ -70,6 +79,7 @@ bool Viewer::frame() {
       (state_->measures.shots > 0 || idle(state_->phase))) {
     frame_wanted_ = false;
     framed_scene_ = state_->facts->scene_path;
+    framed_aspect_ = window_aspect_;
     scene_.startFraming(static_cast<double>(std::max(scene_width_, 1)) / std::max(scene_height_, 1));
   }
   const std::optional<Camera> camera = scene_.continueFraming(kSliceSeconds);
@@ -150,12 +160,14 @@ bool Viewer::draw(GLuint framebuffer, int width, int height) {
   const double seconds = std::min(now - last_frame_, 0.1);
   last_frame_ = now;
   if (gui_frames_ > 0) --gui_frames_;
+  followShape(width, height, now);
   const BesideScene beside = besideScene(*this, width);
   scene_width_ = width - beside.panel - beside.lecture;
   scene_height_ = height;
   measureReference(now);
   if (!captures_.empty() && gui_frames_ == 0) drawForCapture(width, height);
   ImGui::NewFrame();
+  if (userActs() && notice_.userActs(now)) input();
   navigate(seconds);
   float bottom = static_cast<float>(height);
   if (!ui_.clean) {
@@ -169,7 +181,7 @@ bool Viewer::draw(GLuint framebuffer, int width, int height) {
     buildLecture(*this, scene_width_, beside.lecture);
     buildHemicube(*this, edge);
   }
-  buildOverlays(*this, scene_width_, bottom, notice_, scene_.framing() || frame_wanted_);
+  buildOverlays(*this, scene_width_, bottom, captures_.empty(), scene_.framing() || frame_wanted_);
   ImGui::Render();
 
   if (renderer().hardware) {

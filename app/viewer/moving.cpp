@@ -36,7 +36,7 @@ void Viewer::navigate(double seconds) {
   if (!io.WantCaptureMouse && io.MouseWheel != 0) {
     if (io.MouseDown[ImGuiMouseButton_Right]) {
       navigator_.scaleSpeed(std::pow(1.25, io.MouseWheel));
-      notice("flying " + std::string(io.MouseWheel > 0 ? "faster" : "slower"));
+      passingNotice("flying " + std::string(io.MouseWheel > 0 ? "faster" : "slower"));
     } else {
       zoomAtMouse(io.MouseWheel);
     }
@@ -96,6 +96,21 @@ void Viewer::frameScene() {
   camera_from_memory_ = false;
 }
 
+void Viewer::followShape(int width, int height, double now) {
+  constexpr double kShapeRests = 0.3;  // [s], so that nothing jumps while an edge is dragged
+  const double aspect = static_cast<double>(width) / std::max(height, 1);
+  if (aspect != std::exchange(window_aspect_, aspect)) shape_rests_at_ = now + kShapeRests;
+}
+
+/// A camera that was found by itself, and not moved since, is found again for a window of another shape.
+void Viewer::fitToShape(double now) {
+  if (now < shape_rests_at_ || !sceneStands() || !captures_.empty()) return;
+  shape_rests_at_ = kNever;
+  if (framed_aspect_ == window_aspect_ || navigator_.camera() != found_camera_) return;
+  frameScene();
+  input();
+}
+
 /// Of one of the pictures, where there are two; those that are higher than wide show as much as square ones.
 double Viewer::pictureAspect() const {
   const bool race = state_->rival.has_value();
@@ -147,7 +162,7 @@ void Viewer::copyCamera(bool options) {
   requiredMesh();
   const Camera camera = *cameraInFile();
   ImGui::SetClipboardText((options ? cameraOptions(camera) : cameraLines(camera)).c_str());
-  notice("copied");
+  passingNotice("copied");
 }
 
 }  // namespace unshot

@@ -72,7 +72,7 @@ void Viewer::saveProbes(std::filesystem::path path) {
 
 void Viewer::copyValues() {
   ImGui::SetClipboardText(picking_.text(*state_).c_str());
-  notice("copied");
+  passingNotice("copied");
 }
 
 void Viewer::focusPicked() { navigator_.lookAt(picking_.required().pick.position); }

@@ -13,6 +13,7 @@ constexpr double kGlideSeconds = 0.25;  // time constant of the exposure
 constexpr double kArrivedStops = 0.01;
 // A jump of the light by more than this (a new display mode, a door opened) is not worth a glide.
 constexpr double kJumpStops = 6;
+constexpr double kMostLost = 64;  // times darker than all light, a part of it is exposed for itself
 constexpr std::size_t kFewestPieces = 10'000;
 constexpr std::size_t kFewestRows = 64;
 constexpr std::size_t kFewestBytes = 1 << 20;
@@ -218,19 +219,25 @@ bool SceneDisplay::drawPieces(const LinearTarget& target, const Wanted& wanted, 
 void SceneDisplay::expose() {
   const Wanted& wanted = making_->wanted;
   // A part of the light keeps the exposure of the whole, so that the eye sees what is missing; if it has one.
-  const bool whole = wanted.settings.view.light.all();
-  const bool follow = !wanted.settings.exposure_locked && (whole || exposed_for_part_);
-  if (exposed_display_ != wanted.settings.view.display) snap_ = true;
+  // A bounce alone may be far too dark for that.
+  const bool alone = wanted.settings.view.light.oneBounce();
+  const bool whole = wanted.settings.view.light.all() || alone;
+  const bool metering = displayMode(wanted.settings.view.display).tone_mapped;
+  const auto metered = [&] {
+    if (!metered_) metered_ = metering ? SceneView::meter(smallCopy(), viewOf(wanted)) : 1;
+    return *metered_;
+  };
+  // Where light never fades, a few bounces would be nothing beside all of it.
+  const bool lost = wanted.settings.view.light.bounces && metered() > kMostLost * exposure_;
+  const bool follow = !wanted.settings.exposure_locked && (whole || exposed_for_part_ || lost);
+  if (exposed_display_ != wanted.settings.view.display || exposed_alone_ != alone) snap_ = true;
   exposed_display_ = wanted.settings.view.display;
+  exposed_alone_ = alone;
   gliding_ = false;
   if (const auto& given = wanted.settings.view.automatic_exposure) {
     exposure_ = *given;
   } else if (follow || snap_) {
-    if (!metered_) {
-      const bool metering = displayMode(wanted.settings.view.display).tone_mapped;
-      metered_ = metering ? SceneView::meter(smallCopy(), viewOf(wanted)) : 1;
-    }
-    exposure_ = nextExposure(*metered_, glide_seconds_);
+    exposure_ = nextExposure(metered(), glide_seconds_);
     exposed_for_part_ = !whole;
   }
   histogram_.reset();

@@ -138,6 +138,7 @@ class SceneDisplay {
   bool gliding_ = false, snap_ = true;
   std::string exposed_display_;    // exposure_ is for this display
   bool exposed_for_part_ = false;  // and from a part of the light
+  bool exposed_alone_ = false;     // which is a bounce alone
 };
 
 }  // namespace unshot

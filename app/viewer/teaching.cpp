@@ -32,7 +32,7 @@ std::vector<std::pair<glm::vec3, glm::vec3>> outlineAround(const Mesh& mesh, Ins
 
 std::span<const LecturePageRow> lecturePages() {
   static constexpr std::array<LecturePageRow, 4> table = {{
-      {{"matrix", "Matrix", "M = R F gathered to groups of patches, its powers and partial sums"},
+      {{"matrix", "Matrix", "M = R G gathered to groups of patches, its powers and partial sums"},
        LecturePage::kMatrix},
       {{"equation", "Equation", "B = E + R sum F B with the numbers of the picked patch"},
        LecturePage::kEquation},

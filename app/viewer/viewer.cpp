@@ -14,11 +14,11 @@
 #include "viewer/panels/panels.h"
 #include "viewer/panels/theme.h"
 #include "viewer/teaching.h"
+#include "viewer/window_words.h"
 
 namespace unshot {
 namespace {
 
-constexpr double kNoticeSeconds = 4;
 constexpr double kRateWindow = 1;
 
 }  // namespace
@@ -85,10 +85,8 @@ void Viewer::update(double now) {
   if (watch_.look(now)) input();
   followHint(now);
   keepMovedCamera(now);
-  if (!notice_.empty() && now >= notice_until_) {
-    notice_.clear();
-    input();
-  }
+  fitToShape(now);
+  if (notice_.expire(now)) input();
 }
 
 void Viewer::takeState(double now) {
@@ -99,13 +97,14 @@ void Viewer::takeState(double now) {
   const std::shared_ptr<const SessionState> before = std::exchange(state_, latest);
   if (another) {
     rate_points_.clear();
-    error_.reset();
+    notice_.forgetErrorsOfSolve();
     if (script_.empty()) exit_code_ = 0;
     if (setup_.title) setup_.title(state_->facts->scene_name + " \u2013 Unshot");
     forgetOldLight();
     if (state_->facts->scene_path != framed_scene_) {
       rememberCamera(*before);
       frame_wanted_ = camera_from_memory_ = true;
+      noteSky();
       memory_.noteScene(state_->facts->scene_path);
     } else {
       followFrame(*before);
@@ -119,12 +118,21 @@ void Viewer::takeState(double now) {
     problems_seen_ = state_->problems;
     // Of a scene that cannot be read it is of interest when it is mended.
     if (!state_->facts || samePath(watch_.sceneOpening(), state_->facts->scene_path)) watch_.opened();
-    notice_.clear();
+    notice_.setUnderway({});
     // What was asked for is not to be had: the panel shows what is.
     if (state_->facts && session_.sent() == state_->commands) ui_.options = state_->facts->options;
-    fail(*state_->problem);
+    fail(*state_->problem, true);
   }
   gui_frames_ = std::max(gui_frames_, news || another ? kFramesAfterInput : 0);
+}
+
+/// Of a scene that emits nothing: the light in the picture is none of its own.
+void Viewer::noteSky() {
+  const Diagnostics& notes = state_->facts->diagnostics;
+  const auto sky =
+      std::find_if(notes.begin(), notes.end(), [](const Diagnostic& d) { return d.code == "sky"; });
+  if (sky != notes.end())
+    notice("No light of its own: " + windowWords(sky->message + ". To change it: " + sky->advice));
 }
 
 void Viewer::takeMaterials() {
@@ -175,21 +183,21 @@ void Viewer::key(int key, bool ctrl) {
 }
 
 /// Shown, said on the terminal, and remembered for the exit code where nobody may be looking.
-void Viewer::fail(const Error& error) {
-  showError(error);
+void Viewer::fail(const Error& error, bool of_solve) {
+  showError(error, of_solve);
   std::cerr << "unshot: " << error.fullText() << std::endl;
   if (exit_code_ == 0 && (!script_.empty() || state_->epoch == 0 || closing_))
     exit_code_ = exitCodeOf(error.kind());
 }
 
-void Viewer::showError(const Error& error) {
-  error_ = error;
+void Viewer::showError(const Error& error, bool of_solve) {
+  notice_.addError(inWindowWords(error), of_solve, wallSeconds());
   input();
 }
 
 void Viewer::dismiss() {
-  if (error_) {
-    error_.reset();
+  if (error()) {
+    notice_.dismissError();
   } else if (ui_.prompt.open()) {
     ui_.prompt.close();
   } else if (ui_.help) {
@@ -198,14 +206,23 @@ void Viewer::dismiss() {
     giveUpLoading();
   } else if (sceneChanged()) {
     keepScene();
-  } else {
+  } else if (!notice_.dismissNotices()) {
     unpick();
   }
 }
 
 void Viewer::notice(std::string text) {
-  notice_ = std::move(text);
-  notice_until_ = wallSeconds() + kNoticeSeconds;
+  notice_.add(std::move(text), wallSeconds());
+  input();
+}
+
+void Viewer::passingNotice(std::string text) {
+  notice_.addPassing(std::move(text), wallSeconds());
+  input();
+}
+
+void Viewer::dismissNotices() {
+  notice_.dismissNotices();
   input();
 }
 
@@ -219,7 +236,7 @@ void Viewer::giveUpLoading() {
   if (state_->phase != SessionPhase::kLoading) return;
   session_.giveUpLoading();
   if (state_->facts) ui_.options = state_->facts->options;  // the panel shows what stays
-  notice("given up: " + state_->task);
+  passingNotice("given up: " + state_->task);
 }
 
 void Viewer::restart() {
@@ -277,13 +294,14 @@ void Viewer::step(std::uint64_t shots) {
   // A command under way may be what begins the solve anew.
   const bool up_to_date = session_.sent() == state_->commands;
   if (up_to_date && state_->phase == SessionPhase::kConverged)
-    notice(state_->stopped_by == "no light" ? "no light to shoot" : "converged; Again shoots it anew");
-  if (up_to_date && state_->phase == SessionPhase::kStopped) notice("limit reached; Again shoots it anew");
+    passingNotice(state_->stopped_by == "no light" ? "no light to shoot" : "converged; Again shoots it anew");
+  if (up_to_date && state_->phase == SessionPhase::kStopped)
+    passingNotice("limit reached; Again shoots it anew");
   session_.step(shots);
 }
 
-void Viewer::setBounces(std::optional<std::uint32_t> bounces) {
-  ui_.settings.view.light = {true, bounces};
+void Viewer::setBounces(std::optional<std::uint32_t> bounces, bool alone) {
+  ui_.settings.view.light = {true, bounces, bounces && alone};
   if (bounces) session_.completeBounces();
 }
 
@@ -297,19 +315,19 @@ void Viewer::race(const std::optional<std::string>& key) {
 
 void Viewer::remember() {
   ui_.settings.view.reference = rememberedLight(*state_, ui_.settings.view.light);
-  notice("remembered: " + ui_.settings.view.reference->name);
+  passingNotice("remembered: " + ui_.settings.view.reference->name);
 }
 
 void Viewer::loadReference(const std::filesystem::path& ply) {
   ui_.settings.view.reference = loadedLight(*state_, ply);
-  notice("compared with " + ui_.settings.view.reference->name);
+  passingNotice("compared with " + ui_.settings.view.reference->name);
 }
 
 void Viewer::forget() { ui_.settings.view.reference.reset(); }
 
 void Viewer::loadReferencePicture(const std::filesystem::path& file) {
   reference_picture_ = std::make_unique<ReferencePicture>(*setup_.display, file);
-  notice("compared with " + reference_picture_->name());
+  passingNotice("compared with " + reference_picture_->name());
 }
 
 // Light of another mesh is no reference; bounces that were chosen are wanted of the new solve too.
@@ -324,8 +342,8 @@ void Viewer::saveSolve(std::filesystem::path path) {
   if (state_->facts && samePath(path, state_->facts->scene_path))
     throw Error(ErrorKind::kUsage, "is the scene itself", path.string(), "another file name");
   checkWritable(path);
-  notice("saving the solve: " + path.string());
-  notice_until_ = kNever;
+  notice_.setUnderway("saving the solve: " + path.string());
+  input();
   session_.save(std::move(path));
 }
 
@@ -359,7 +377,8 @@ void Viewer::resizeWindow(int width, int height) {
 
 double Viewer::nextUpdate() const {
   double next = ui_.hint && hint_until_ > 0 ? hint_until_ : kNever;
-  next = std::min({next, notice_.empty() ? kNever : notice_until_, watch_.nextLook(), nextKeeping()});
+  next = std::min({next, notice_.nextExpiry(), watch_.nextLook(), nextKeeping(),
+                   sceneStands() ? shape_rests_at_ : kNever});
   if (script_at_ < script_.size() && script_[script_at_].wait == WaitFor::kSeconds && wait_began_ >= 0)
     next = std::min(next, wait_began_ + script_[script_at_].amount);
   return next;

@@ -27,6 +27,7 @@
 #include "viewer/gui_renderer.h"
 #include "viewer/material_edits.h"
 #include "viewer/memory.h"
+#include "viewer/messages.h"
 #include "viewer/navigator.h"
 #include "viewer/picking.h"
 #include "viewer/prompt.h"
@@ -194,8 +195,9 @@ class Viewer {
   bool solveGoesOn() const;
   /// Where the solve has ended nothing is shot, and a notice says so.
   void step(std::uint64_t shots);
-  /// Shows the light of so many bounces only, working them out where that takes more form factors; none: all.
-  void setBounces(std::optional<std::uint32_t> bounces);
+  /// Shows the light of up to so many bounces, or of that bounce alone, working them out where that takes
+  /// more form factors; none: all.
+  void setBounces(std::optional<std::uint32_t> bounces, bool alone = false);
   void completeBounces() { session_.completeBounces(); }
   /// The present solve against another one in the mode `key`, both from nothing; no key: ends the race.
   void race(const std::optional<std::string>& key);
@@ -244,15 +246,19 @@ class Viewer {
   /// Saves the present solve, which goes on, at its next pause between two steps. An empty path: a new name
   /// in the working folder.
   void saveSolve(std::filesystem::path path);
-  /// A line that goes away by itself.
+  /// A line that stays until it was read; one for a moment, instead of the one before.
   void notice(std::string text);
-  void showError(const Error& error);
-  const std::optional<Error>& error() const { return error_; }
+  void passingNotice(std::string text);
+  void showError(const Error& error, bool of_solve = false);
+  const std::optional<Error>& error() const { return notice_.error(); }
+  const Messages& messages() const { return notice_; }
+  void dismissNotices();
   /// A list of all actions, or of a folder's scenes (none: where the last one was), with a text to begin
   /// with.
   void searchActions(const std::string& text);
   void browse(const std::filesystem::path& folder);
-  /// Closes what lies over the scene: the message, else the help, else gives up loading or what is picked.
+  /// Closes what lies over the scene: the message, else the help, else gives up loading, else notices, else
+  /// what is picked.
   void dismiss();
   void close() { closing_ = true; }
 
@@ -284,13 +290,14 @@ class Viewer {
   void takeState(double now);
   void noteRates(double now);
   void takeMaterials();
+  void noteSky();
   void runScript(double now);
   void runScriptLines(double now);
   bool waitIsOver(const ScriptLine& line, double now);
   bool settled() const;
   void followTeaching();
   void forgetOldLight();
-  void fail(const Error& error);
+  void fail(const Error& error, bool of_solve = false);
   void navigate(double seconds);
   void zoomAtMouse(double notches);
   void placeCamera(const Camera& camera);
@@ -312,6 +319,8 @@ class Viewer {
   bool frame();
   void followFrame(const SessionState& before);
   void applyScale();
+  void followShape(int width, int height, double now);
+  void fitToShape(double now);
   bool recallCamera();
   void rememberCamera(const SessionState& state);
   double nextKeeping() const;
@@ -348,9 +357,11 @@ class Viewer {
   bool watching_ = false;
 
   Memory memory_;
-  std::optional<Camera> found_camera_;  // the automatic one, which need not be remembered
-  std::optional<Camera> kept_camera_;   // of those that were written, the last
-  bool camera_from_memory_ = true;      // where there is one, for the scene that is framed next
+  std::optional<Camera> found_camera_;            // the automatic one, which need not be remembered
+  std::optional<Camera> kept_camera_;             // of those that were written, the last
+  bool camera_from_memory_ = true;                // where there is one, for the scene that is framed next
+  double window_aspect_ = 0, framed_aspect_ = 0;  // now, and when found_camera_ was looked for
+  double shape_rests_at_ = kNever;                // when a window of another shape is taken as it is
   bool sections_restored_ = false;
   double hint_until_ = 0;  // 0: the scene is not there yet
   std::vector<std::pair<ImGuiID, int>> sections_;
@@ -386,10 +397,8 @@ class Viewer {
   std::deque<RatePoint> rate_points_;
 
   // Messages.
-  std::optional<Error> error_;
+  Messages notice_;
   std::uint64_t problems_seen_ = 0;
-  std::string notice_;
-  double notice_until_ = 0;
 
   // Script.
   std::vector<ScriptLine> script_;

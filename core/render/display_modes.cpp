@@ -5,7 +5,7 @@
 namespace unshot {
 
 std::span<const DisplayMode> displayModes() {
-  static constexpr std::array<DisplayMode, 17> table = {{
+  static constexpr std::array<DisplayMode, 18> table = {{
       {.info = {"radiosity", "Radiosity", "light as it leaves the surfaces, B = E + rho H, smooth"}},
       {.info = {"flat", "Radiosity per element", "each element in its own radiosity, as the solver sees it"},
        .per_element = true},
@@ -20,32 +20,45 @@ std::span<const DisplayMode> displayModes() {
        .false_colour = true},
       {.info = {"unshot", "Unshot radiosity", "light still to be shot, U (where it is negative: blue)"},
        .quantity = Quantity::kUnshot},
+      {.info =
+           {"false-unshot", "Unshot radiosity in false colour",
+            "light still to be shot, U, as a scale of colours with a legend: above 0 orange, below it blue"},
+       .quantity = Quantity::kUnshot,
+       .false_colour = true,
+       .diverging = true},
       {.info = {"emission", "Emission", "the light sources alone, E"}, .quantity = Quantity::kEmission},
       {.info = {"reflectance", "Reflectance", "the colours of the materials, rho, from black 0 to white 1"},
        .quantity = Quantity::kReflectance,
        .tone_mapped = false},
       {.info = {"bounces", "Expected bounces",
-                "how many surfaces light from here meets on average, v of (I - M) v = 1; black until it is "
-                "known"},
-       .quantity = Quantity::kBounces},
+                "how many surfaces light from here meets on average, v of (I - M) v = 1, as a scale of "
+                "colours; black until it is known"},
+       .quantity = Quantity::kBounces,
+       .false_colour = true},
       {.info = {"residual", "Error of the mesh",
-                "where the mesh is worst: residual of the continuous equation at random points"},
-       .quantity = Quantity::kResidual},
+                "where the mesh is worst: residual of the continuous equation at random points, as a scale "
+                "of colours; black where it is not known"},
+       .quantity = Quantity::kResidual,
+       .false_colour = true},
       {.info =
            {"difference", "Difference",
             "what is shown minus what was remembered, else minus direct light: brighter is orange, darker "
             "blue"},
        .quantity = Quantity::kDifference,
-       .tone_mapped = false,
-       .exposed = false},
+       .false_colour = true,
+       .diverging = true},
       {.info =
            {"form-factors", "Form factors of a patch",
-            "how much each place gets of what the picked patch sends, F_ij over the area of j, as a scale "
+            "how much each place gets of what the picked patch sends, G_ij over the area of j, as a scale "
             "of colours; black until a patch is picked"},
        .quantity = Quantity::kFormFactors,
        .false_colour = true},
-      {.info = {"last-shot", "Last shot", "what the last single step added to B; black until one was taken"},
-       .quantity = Quantity::kLastShot},
+      {.info = {"last-shot", "Last shot",
+                "what the last single step added to B, as a scale of colours: above 0 orange, below it blue; "
+                "dark until one was taken"},
+       .quantity = Quantity::kLastShot,
+       .false_colour = true,
+       .diverging = true},
       {.info = {"mesh", "Mesh", "radiosity with the edges of the elements"}, .edges = true},
       {.info = {"patches", "Patches", "what shoots: each patch in a colour that its neighbours do not have"},
        .quantity = Quantity::kPatches,

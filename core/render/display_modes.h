@@ -34,6 +34,7 @@ struct DisplayMode {
   bool tone_mapped = true;    ///< exposed automatically and tone-mapped; else 1 is white
   bool exposed = true;        ///< ViewOptions::exposure_ev applies
   bool false_colour = false;  ///< its luminance as a scale of colours; the exposure says where that ends
+  bool diverging = false;     ///< of false colours: to both sides of 0
 };
 
 std::span<const DisplayMode> displayModes();

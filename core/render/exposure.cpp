@@ -20,7 +20,7 @@ constexpr double kLargestScale = 1e36;  // stays a float, and so does its recipr
 std::vector<double> luminances(std::span<const glm::vec4> pixels, float wanted) {
   std::vector<double> found;
   for (const glm::vec4& p : pixels) {
-    if (p.w != wanted) continue;
+    if (p.w != wanted && !(wanted == kSurfacePixel && p.w == kNegativePixel)) continue;
     const double y = luminance(glm::dvec3(p));
     if (std::isfinite(y) && y > 0) found.push_back(y);
   }

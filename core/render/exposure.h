@@ -16,6 +16,8 @@ inline constexpr float kBackgroundPixel = 0;
 inline constexpr float kSurfacePixel = 1;
 inline constexpr float kEmitterPixel = 2;
 inline constexpr float kEdgePixel = 3;
+inline constexpr float kNegativePixel =
+    4;  ///< a surface whose value is below 0; its size stands in the colour
 
 /// The factor from linear values to the display's, where 1 is about white. `pixels`: linear RGB and class.
 /// Finite and positive for any input: values of any scale, all black, infinite or NaN.

@@ -13,6 +13,15 @@ glm::vec3 falseColourAt(double place) {
                   static_cast<float>(at - static_cast<double>(below)));
 }
 
+glm::vec3 divergingColourAt(double place) {
+  constexpr std::size_t kSteps = kDivergingColours - 1;
+  const double at = std::min(std::abs(place), 1.0) * static_cast<double>(kSteps);
+  const std::size_t step = std::min(static_cast<std::size_t>(at), kSteps - 1);
+  const std::size_t below = step + (place < 0 ? kDivergingColours : 0);
+  return glm::mix(kDivergingRamps[below], kDivergingRamps[below + 1],
+                  static_cast<float>(at - static_cast<double>(step)));
+}
+
 double falseColourPlace(double value, double top, bool logarithmic) {
   const double share = value / top;
   if (!logarithmic) return std::clamp(share, 0.0, 1.0);

@@ -29,6 +29,20 @@ inline constexpr std::array<glm::vec3, 7> kFalseColourRamp = {{{0.004f, 0.002f, 
                                                                {0.850f, 0.680f, 0.030f},
                                                                {1.000f, 0.960f, 0.720f}}};
 
+/// Those of scales to both sides of 0, from it to the end above and to the one below.
+inline constexpr std::size_t kDivergingColours = 4;
+inline constexpr std::array<glm::vec3, 2 * kDivergingColours> kDivergingRamps = {{{0.03f, 0.03f, 0.03f},
+                                                                                  {0.22f, 0.05f, 0.01f},
+                                                                                  {0.95f, 0.30f, 0.02f},
+                                                                                  {1.00f, 0.92f, 0.55f},
+                                                                                  {0.03f, 0.03f, 0.03f},
+                                                                                  {0.01f, 0.06f, 0.26f},
+                                                                                  {0.04f, 0.30f, 1.00f},
+                                                                                  {0.68f, 0.93f, 1.00f}}};
+
+/// The same at `place` from -1 to 1, 0 in the middle.
+glm::vec3 divergingColourAt(double place);
+
 /// The colour at `place` on the scale, 0 its low end and 1 its top, linear RGB.
 glm::vec3 falseColourAt(double place);
 

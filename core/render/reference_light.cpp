@@ -29,20 +29,31 @@ double meanOf(const Mesh& mesh, const std::vector<glm::vec3>& reflected) {
   return area > 0 ? sum / area : 0;
 }
 
+std::vector<glm::vec3> minus(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
+  std::vector<glm::vec3> out(a);
+  for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k) out[k] -= b[k];
+  return out;
+}
+
 }  // namespace
 
 std::shared_ptr<const MeshField> bounceField(const std::shared_ptr<const BounceLight>& light,
                                              const LightChoice& choice) {
   if (!light || !choice.indirect || !choice.bounces || *choice.bounces == 0) return nullptr;
   const std::size_t known = std::min<std::size_t>(*choice.bounces, light->received.size());
-  return known > 0 ? light->received[known - 1] : nullptr;
+  if (known == 0) return nullptr;
+  const std::shared_ptr<const MeshField>& sum = light->received[known - 1];
+  if (!choice.alone || known == 1) return sum;
+  const MeshField& before = *light->received[known - 2];
+  return std::make_shared<const MeshField>(
+      MeshField{minus(sum->vertices, before.vertices), minus(sum->elements, before.elements)});
 }
 
 ChosenLight chosenLight(const Snapshot& snapshot, const LightChoice& choice) {
-  if (!choice.indirect) return {snapshot.direct.get(), snapshot.element_direct.get()};
+  if (!choice.indirect) return {snapshot.direct.get(), snapshot.element_direct.get(), nullptr};
   if (const auto field = bounceField(snapshot.bounce_light, choice))
-    return {&field->vertices, &field->elements};
-  return {&snapshot.irradiance, &snapshot.element_irradiance};
+    return {&field->vertices, &field->elements, field};
+  return {&snapshot.irradiance, &snapshot.element_irradiance, nullptr};
 }
 
 ReferenceLight referenceLight(const Snapshot& snapshot, const LightChoice& choice, std::string name) {

@@ -18,7 +18,11 @@ struct LightChoice {
   /// Only the light of so many bounces, or as many as are known (Snapshot::bounce_light); all light where
   /// none are. Ignored without `indirect`.
   std::optional<std::uint32_t> bounces;
+  /// Of these bounces the last one by itself, B_n - B_(n-1), without the light that is emitted.
+  bool alone = false;
 
+  /// Whether that is what is meant.
+  bool oneBounce() const { return indirect && bounces && alone; }
   bool all() const { return indirect && !bounces; }
   bool operator==(const LightChoice&) const = default;
 };
@@ -28,11 +32,12 @@ struct LightChoice {
 struct ChosenLight {
   const std::vector<glm::vec3>* vertices = nullptr;  ///< [W/m^2], one per vertex; null: 0
   const std::vector<glm::vec3>* elements = nullptr;  ///< [W/m^2], one per element; null: 0
+  std::shared_ptr<const MeshField> bounces;          ///< what these are of, where they are of bounces
 };
 ChosenLight chosenLight(const Snapshot& snapshot, const LightChoice& choice);
 
 /// The bounces of the choice, or as many as are known where that are fewer; null for all light, direct light,
-/// or where not.
+/// or where not. Of one bounce alone the difference of two sums, worked out anew.
 std::shared_ptr<const MeshField> bounceField(const std::shared_ptr<const BounceLight>& light,
                                              const LightChoice& choice);
 

@@ -161,14 +161,16 @@ void SceneBuffers::upload(std::size_t bytes) {
 
 SceneBuffers::LightBuffers SceneBuffers::lightOf(const LightChoice& choice) {
   if (!choice.indirect) return {direct_, element_direct_texture_};
-  const std::shared_ptr<const MeshField> field = bounceField(bounce_light_, choice);
-  if (!field) return {irradiance_, element_irradiance_texture_};
-  if (field != bounce_field_) {
+  const std::shared_ptr<const MeshField> sum = bounceField(bounce_light_, {true, choice.bounces, false});
+  if (!sum) return {irradiance_, element_irradiance_texture_};
+  if (sum != bounce_field_ || choice.alone != bounce_alone_) {
+    const std::shared_ptr<const MeshField> field = choice.alone ? bounceField(bounce_light_, choice) : sum;
     const gl::Functions& fn = context_.functions();
     send<glm::vec3>(bounce_irradiance_, SharedField(field, &field->vertices), mesh_->vertices.size());
     send<glm::vec4>(element_bounce_, SharedField(field, &field->elements), mesh_->element_count);
     attachTexels(fn, element_bounce_texture_, GL_RGBA32F, element_bounce_);
-    bounce_field_ = field;
+    bounce_field_ = sum;
+    bounce_alone_ = choice.alone;
   }
   return {bounce_irradiance_, element_bounce_texture_};
 }
@@ -179,8 +181,8 @@ void SceneBuffers::useReference(const std::shared_ptr<const ReferenceLight>& ref
     Snapshot direct;
     direct.mesh = mesh_;
     direct.direct = direct_field_;
-    direct_reference_ =
-        std::make_shared<const ReferenceLight>(referenceLight(direct, {false, {}}, "direct light alone"));
+    direct_reference_ = std::make_shared<const ReferenceLight>(
+        referenceLight(direct, {false, {}, false}, "direct light alone"));
   }
   const auto& wanted = fits ? reference : direct_reference_;
   if (wanted == reference_light_) return;

@@ -87,7 +87,8 @@ class SceneBuffers {
   glm::dvec3 sky_{0.0};
   gl::VertexArray vertex_array_, unlit_vertex_array_;
   std::shared_ptr<const BounceLight> bounce_light_;         // of the snapshot
-  std::shared_ptr<const MeshField> bounce_field_;           // as uploaded
+  std::shared_ptr<const MeshField> bounce_field_;           // the sum that was uploaded, or
+  bool bounce_alone_ = false;                               // its last term alone
   std::shared_ptr<const ReferenceLight> direct_reference_;  // where there is no other
   std::shared_ptr<const ReferenceLight> reference_light_;   // as uploaded
   std::shared_ptr<const VertexField> given_field_;          // as uploaded

@@ -10,6 +10,7 @@ namespace unshot {
 namespace {
 
 constexpr int kMeteredPixels = 144 * 108;
+constexpr double kLeastDifferenceShown = 0.01;  // that the scale of differences ends at
 void bindTexture(const gl::Functions& fn, const gl::Program& program, const char* name, int unit,
                  GLenum target, GLuint texture) {
   fn.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
@@ -21,10 +22,10 @@ void bindTexture(const gl::Functions& fn, const gl::Program& program, const char
 
 FalseColour falseColourOf(const ViewOptions& options, const DisplayMode& mode) {
   FalseColour out = options.false_colour;
-  if (mode.quantity == Quantity::kFormFactors) {
+  const Quantity q = mode.quantity;
+  if (q == Quantity::kFormFactors || q == Quantity::kBounces || q == Quantity::kDifference)
     out.lumens_per_watt = 0;
-    out.logarithmic = true;
-  }
+  if (q == Quantity::kFormFactors) out.logarithmic = true;
   return out;
 }
 
@@ -42,13 +43,14 @@ const gl::Program& SceneView::vertexProgram(const DisplayMode& mode) {
 }
 
 const gl::Program& SceneView::resolveProgram(const DisplayMode& mode, const std::string& tone) {
-  const std::string key = mode.false_colour ? "false colours" : tone;
+  const std::string key = mode.diverging ? "diverging" : mode.false_colour ? "false colours" : tone;
   const auto made = resolve_programs_.find(key);
   if (made != resolve_programs_.end()) return made->second;
   gl::Program program =
-      mode.false_colour ? gl::Program(context_, {"frame.vert", "resolve.frag", "resolve_false_colour.frag"})
-                        : gl::Program(context_, {"frame.vert", "resolve.frag", "resolve_toned.frag",
-                                                 toneCurve(tone).shader});
+      mode.diverging      ? gl::Program(context_, {"frame.vert", "resolve.frag", "resolve_diverging.frag"})
+      : mode.false_colour ? gl::Program(context_, {"frame.vert", "resolve.frag", "resolve_false_colour.frag"})
+                          : gl::Program(context_, {"frame.vert", "resolve.frag", "resolve_toned.frag",
+                                                   toneCurve(tone).shader});
   return resolve_programs_.emplace(key, std::move(program)).first->second;
 }
 
@@ -90,11 +92,13 @@ void SceneView::useDisplay(const gl::Program& program, const glm::mat4& matrix, 
   fn.UniformMatrix4fv(program.uniform("view_projection"), 1, GL_FALSE, glm::value_ptr(matrix));
   fn.Uniform4fv(program.uniform("eye"), 1, glm::value_ptr(eye));
   fn.Uniform1f(program.uniform("ambient_weight"), with_ambient ? 1.0f : 0.0f);
+  fn.Uniform1f(program.uniform("emission_weight"), options.light.oneBounce() ? 0.0f : 1.0f);
   fn.Uniform1i(program.uniform("quantity"), static_cast<int>(mode.quantity));
   fn.Uniform1i(program.uniform("per_element"), mode.per_element);
   bindTexture(fn, program, "sides", 0, GL_TEXTURE_BUFFER, buffers_.sides().id());
   bindTexture(fn, program, "triangle_elements", 1, GL_TEXTURE_BUFFER, buffers_.triangleElements().id());
   bindTexture(fn, program, "element_irradiance", 2, GL_TEXTURE_BUFFER, element_light.id());
+  fn.Uniform1i(program.uniform("diverging"), mode.diverging);
   if (mode.quantity == Quantity::kDifference) {
     const double mean = buffers_.referenceMean();
     fn.Uniform1f(program.uniform("per_mean"), mean > 0 ? finiteValue(1 / mean) : 0.0f);
@@ -226,9 +230,16 @@ void SceneView::resolve(const LinearTarget& samples, double automatic_exposure, 
   fn.Uniform2i(program.uniform("origin"), viewport.x, viewport.y - first_row);
   fn.Uniform1f(program.uniform("exposure"), finiteValue(scale));
   fn.Uniform1i(program.uniform("tone_mapped"), mode.tone_mapped);
-  if (mode.false_colour) useFalseColour(program, falseColourOf(options, mode), scale);
+  if (mode.diverging) {
+    fn.Uniform1i(program.uniform("logarithmic"), falseColourOf(options, mode).logarithmic);
+    fn.Uniform3fv(program.uniform("ramps"), static_cast<GLsizei>(kDivergingRamps.size()),
+                  glm::value_ptr(kDivergingRamps[0]));
+  } else if (mode.false_colour) {
+    useFalseColour(program, falseColourOf(options, mode), scale);
+  }
   fn.Uniform3f(program.uniform("background"), kBackground, kBackground, kBackground);
-  const bool shows_light = mode.quantity == Quantity::kRadiosity || mode.quantity == Quantity::kEmission;
+  const bool shows_light = (mode.quantity == Quantity::kRadiosity && !options.light.oneBounce()) ||
+                           mode.quantity == Quantity::kEmission;
   const glm::vec3 sky = shows_light ? glm::vec3(buffers_.sky()) : glm::vec3(0.0f);
   fn.Uniform3f(program.uniform("sky"), sky.x, sky.y, sky.z);
   // A line is one sample wide: where it covers part of a pixel it is drawn the stronger.
@@ -242,7 +253,10 @@ void SceneView::resolve(const LinearTarget& samples, double automatic_exposure, 
 double SceneView::meter(std::span<const glm::vec4> small, const ViewOptions& options) {
   const DisplayMode& mode = displayMode(options.display);
   if (!mode.tone_mapped) return 1;
-  return mode.false_colour ? scaleExposure(small) : automaticExposure(small);
+  if (!mode.false_colour) return automaticExposure(small);
+  const double scale = scaleExposure(small);
+  // What is the same but for rounding is not to look as if it differed.
+  return mode.quantity == Quantity::kDifference ? std::min(scale, 1 / kLeastDifferenceShown) : scale;
 }
 
 std::vector<glm::vec4> SceneView::smallCopy(const LinearTarget& samples) {

@@ -55,7 +55,8 @@ struct ViewOptions {
 
 /// Where a picture shows nothing: a neutral dark grey, linear values of the display (sRGB 26).
 inline constexpr float kBackground = 0.0103f;
-/// The scale that a mode has its colours by: form factors are in no unit of light, and go over decades.
+/// The scale that a mode has its colours by: form factors and differences are in no unit of light, and form
+/// factors go over decades.
 FalseColour falseColourOf(const ViewOptions& options, const DisplayMode& mode);
 
 /// A rectangle of the bound framebuffer [px], from its lower left.

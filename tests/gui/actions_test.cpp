@@ -107,6 +107,7 @@ const std::map<std::string_view, std::string>& validArguments() {
       {"picture-difference", "on"},
       {"plot", "rows"},
       {"bounces", "2"},
+      {"bounce-alone", "2"},
       {"reference", "solution.ply"},
       {"size", "400x300"},
       {"scale", "1.5"},

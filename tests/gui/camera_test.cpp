@@ -3,6 +3,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "base/clock.h"
 #include "support/live_viewer.h"
 
 namespace unshot {
@@ -155,6 +156,33 @@ TEST_F(ViewerCamera, PresetsAreOfferedWhereTheyFit) {
   // The published film is square, and the box's front edge is in it.
   EXPECT_GT(placeOf({0, 0, 0})->x, 0.95);
   EXPECT_LT(placeOf({0, 0, 0})->x, 1);
+}
+
+// As long as it is the one that was found.
+TEST_F(ViewerCamera, IsFoundAgainForAWindowOfAnotherShape) {
+  const auto resize = [&](const std::string& size) {
+    act("size", size);
+    const double later = wallSeconds() + 1;
+    ASSERT_TRUE(live_.until([&] { return wallSeconds() > later; }));
+    rest();
+  };
+  const Camera square = live_->camera();
+  resize("600x200");
+  const Camera wide = live_->camera();
+  EXPECT_NE(wide, square);
+  act("frame");
+  rest();
+  EXPECT_EQ(live_->camera(), wide) << "F finds another one";
+  resize("900x300");
+  EXPECT_EQ(live_->camera(), wide) << "its shape is the same";
+  live_->navigator().orbit({40, 10}, 240);
+  rest();
+  const Camera moved = live_->camera();
+  resize("300x300");
+  EXPECT_EQ(live_->camera(), moved) << "the user has moved it";
+  act("frame");
+  rest();
+  EXPECT_EQ(live_->camera(), square);
 }
 
 }  // namespace

@@ -37,14 +37,32 @@ TEST(Comparison, AScriptWaitsForTheBouncesItChose) {
   EXPECT_EQ(bounceWaitText(live->state()), "");
   const auto& reference = live->ui().settings.view.reference;
   ASSERT_TRUE(reference);
-  EXPECT_EQ(reference->name, "2 bounces");
+  EXPECT_EQ(reference->name, "up to 2 bounces");
   const ReferenceLight all = referenceLight(shown(live), {}, "all"),
-                       direct = referenceLight(shown(live), {false, {}}, "direct");
+                       direct = referenceLight(shown(live), {false, {}, false}, "direct");
   EXPECT_GT(reference->mean, direct.mean);
   EXPECT_LT(reference->mean, all.mean);
 }
 
-TEST(Comparison, ABounceAloneIsDirectLight) {
+TEST(Comparison, ABounceByItself) {
+  LiveViewer live(cornellBox("wait converged\nbounce-alone 2\nremember\nbounces 2\n"));
+  ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
+  const ViewOptions& view = live->ui().settings.view;
+  EXPECT_EQ(view.reference->name, "bounce 2 alone");
+  EXPECT_FALSE(view.light.oneBounce()) << "bounces N is up to N";
+  EXPECT_EQ(shownBounces(shown(live), view.light), 2u);
+  const ReferenceLight both = referenceLight(shown(live), {true, 2, false}, "both"),
+                       first = referenceLight(shown(live), {true, 1, false}, "first");
+  EXPECT_NEAR(view.reference->mean, both.mean - first.mean, 1e-5 * both.mean);
+  EXPECT_GT(view.reference->mean, 0.01 * both.mean);
+  live->perform("bounce-alone", "all");
+  EXPECT_TRUE(view.light.all());
+  live->perform("bounce-alone", "0");
+  ASSERT_TRUE(live->error());
+  EXPECT_TRUE(view.light.all());
+}
+
+TEST(Comparison, TheFirstBounceIsDirectLight) {
   LiveViewer live(cornellBox("wait converged\nbounces 1\n"));
   ASSERT_TRUE(live.until([&] {
     return live->state().snapshot && shownBounces(shown(live), live->ui().settings.view.light) == 1;

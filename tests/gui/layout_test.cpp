@@ -117,6 +117,10 @@ class Layout : public testing::TestWithParam<Window> {
     ASSERT_TRUE(viewer_.untilPhase(SessionPhase::kConverged));
     viewer_->perform("size", std::to_string(GetParam().width) + "x" + std::to_string(GetParam().height));
     viewer_->setScale(GetParam().scale);
+    viewer_.draw();
+    // Closed at first.
+    if (ImGuiWindow* sections = scrolled())
+      sections->StateStorage.SetInt(ImHashStr("###messages", 0, sections->ID), 1);
     ASSERT_TRUE(viewer_.until([&] { return viewer_->nextFrame(0) > 1e30; }));
   }
 

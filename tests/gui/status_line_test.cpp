@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/text.h"
+#include "gui/support/gui_layout.h"
 #include "support/live_viewer.h"
 #include "viewer/panels/error_panel.h"
 
@@ -127,6 +128,33 @@ TEST(StatusLine, LeavesTheLastOutWhereItIsNarrow) {
   addParts(*status(), parts);
   EXPECT_EQ(parts.size(), 2u);  // the phase and what is unshot
   EXPECT_LE(status()->ContentSize.x, status()->Size.x);
+}
+
+/// The letters of the line.
+std::string textOf(const ImGuiWindow& window) {
+  std::string out;
+  for (const testing_support::Letter& letter :
+       testing_support::Letters(*ImGui::GetIO().Fonts).of(*window.DrawList))
+    out += letter.text;
+  return out;
+}
+
+TEST(StatusLine, SaysWhereThePanelHasNoRoom) {
+  LiveViewer viewer(box(640, 360));
+  ASSERT_TRUE(viewer.untilPhase(SessionPhase::kConverged));
+  const auto line = [&](const char* scale) {
+    viewer->perform("scale", scale);
+    for (int frame = 0; frame < 3; ++frame) viewer.draw();
+    return status() ? textOf(*status()) : std::string();
+  };
+  EXPECT_EQ(line("1").find("noroom"), std::string::npos) << "there is room";
+  const std::string twice = line("2");
+  EXPECT_NE(twice.find("nopanel:1,216pxorsmallerscale"), std::string::npos) << twice;
+  const std::string less = line("1.2");
+  EXPECT_NE(less.find("noroomforthepanel:730pxorasmallerscale"), std::string::npos) << less;
+  viewer->perform("panel", "off");
+  viewer.draw();
+  EXPECT_FALSE(status()) << "the line goes with the panel, which is not wanted then";
 }
 
 }  // namespace

@@ -75,8 +75,10 @@ TEST(WindowScript, EveryModeAndEveryMethodConvergesToTheSame) {
 
 TEST(WindowScript, EveryDisplayModeShowsAPictureOfItsOwn) {
   const TempFolder folder;
-  // A single shot for the mode that shows the last one, which has to be asked for before.
-  std::string script = "display last-shot\npause on\nstep\nwait shots 1\npause off\nwait converged\n";
+  // A single shot for the mode that shows the last one, which has to be asked for before; a patch whose form
+  // factors are shown.
+  std::string script =
+      "display last-shot\npause on\nstep\nwait shots 1\npause off\nwait converged\npick 0.5,0.4\n";
   for (const DisplayMode& mode : displayModes()) {
     const std::string key(mode.info.key);
     script += "display " + key + "\nscreenshot-scene " + key + ".png\n";

@@ -6,6 +6,7 @@
 
 #include "base/colour.h"
 #include "gl/context.h"
+#include "render/exposure.h"
 #include "render/scene_view.h"
 #include "support/synthetic_room.h"
 
@@ -40,7 +41,9 @@ class DirectLight : public testing::TestWithParam<gl::Provider> {
     target.bind();
     view.drawLinear({{-0.5, 1, 3}, {-0.5, 1, 0}, {0, 1, 0}, 40}, 4.0 / 3, {}, options, false);
     EXPECT_EQ(context_->functions().GetError(), GLenum{GL_NO_ERROR});
-    return glm::dvec3(glm::vec3(target.read()[12 * 32 + 16]));
+    const glm::vec4 pixel = target.read()[12 * 32 + 16];
+    class_ = pixel.w;
+    return glm::dvec3(glm::vec3(pixel));
   }
   static void expectNear(const glm::dvec3& got, const glm::dvec3& expected, const std::string& what) {
     EXPECT_LT(glm::length(got - expected), 1e-5) << what << ": " << got.x << " " << got.y << " " << got.z;
@@ -48,6 +51,7 @@ class DirectLight : public testing::TestWithParam<gl::Provider> {
 
   std::unique_ptr<gl::Context> context_;
   Snapshot room_ = syntheticRoom();
+  float class_ = 0;  // of the pixel that was looked at last
 };
 
 TEST_P(DirectLight, IsShownAloneWithoutASnapshotMore) {
@@ -115,20 +119,80 @@ TEST_P(DirectLight, BouncesAreShownAsFarAsTheyAreKnown) {
   }
 }
 
+TEST_P(DirectLight, ABounceAloneIsWhatItAddsWithoutTheLightEmitted) {
+  const auto field = [&](float light) {
+    return std::make_shared<const MeshField>(
+        MeshField{std::vector<glm::vec3>(room_.irradiance.size(), glm::vec3(light)),
+                  std::vector<glm::vec3>(room_.element_irradiance.size(), glm::vec3(light / 2))});
+  };
+  room_.bounce_light = std::make_shared<const BounceLight>(BounceLight{{}, {field(4), field(6), field(7)}});
+  auto lamp = std::make_shared<Mesh>(*room_.mesh);
+  for (Side& side : lamp->sides) side.emission = glm::dvec3(10);
+  SceneView view(*context_);
+  ViewOptions options;
+  options.light.alone = true;
+  for (const bool lamps : {false, true}) {
+    if (lamps) room_.mesh = lamp;
+    view.setSnapshot(room_);
+    options.display = "radiosity";
+    options.light.bounces = 1;
+    expectNear(shown(view, options), glm::dvec3(0.75 * 4), "the first");
+    options.light.bounces = 2;
+    expectNear(shown(view, options), glm::dvec3(0.75 * 2), "the second");
+    options.light.bounces = 3;
+    expectNear(shown(view, options), glm::dvec3(0.75 * 1), "the third");
+    options.light.alone = false;
+    expectNear(shown(view, options), glm::dvec3(0.75 * 7 + (lamps ? 10 : 0)), "up to the third");
+    options.light.alone = true;
+    options.display = "flat";
+    expectNear(shown(view, options), glm::dvec3(0.75 * 0.5), "the third, flat");
+    options.display = "emission";
+    expectNear(shown(view, options), glm::dvec3(lamps ? 10 : 0), "what is emitted stays what it is");
+  }
+  const ReferenceLight third = referenceLight(room_, options.light, "the third");
+  EXPECT_FLOAT_EQ(third.reflected[0].x, 0.75f);
+}
+
 TEST_P(DirectLight, DifferencesHaveTheSignAndSizeOfTheirColour) {
   room_.direct = constant(room_.irradiance.size(), {2, 3, 4});
   SceneView view(*context_);
   view.setSnapshot(room_);
   ViewOptions options;
   options.display = "difference";
-  expectNear(shown(view, options), differenceColour(0), "as direct light, whatever the ambient term");
+  expectNear(shown(view, options), glm::dvec3(0.0), "as direct light, whatever the ambient term");
   for (const double factor : {0.5, 0.98, 1.0, 1.004, 1.3, 3.0}) {
     // The reference reflects as much everywhere as is reflected now, over `factor`.
     const std::vector<glm::dvec3> radiosity(room_.irradiance.size(), 0.75 * glm::dvec3(2, 3, 4) / factor);
     auto reference = std::make_shared<ReferenceLight>(referenceLight(room_.mesh, radiosity, "test"));
     EXPECT_NEAR(reference->mean, luminance(radiosity[0]), 1e-5);
     options.reference = reference;
-    EXPECT_LT(glm::length(shown(view, options) - differenceColour(factor - 1)), 2e-3) << factor;
+    EXPECT_LT(glm::length(shown(view, options) - glm::dvec3(std::abs(factor - 1))), 2e-3) << factor;
+    EXPECT_EQ(class_, factor < 0.999 ? kNegativePixel : kSurfacePixel) << factor;
+  }
+}
+
+// The scale of differences ends where nearly all in view do, and not in what rounding makes of equal light.
+TEST_P(DirectLight, TheScaleOfDifferencesEndsWhereTheyDo) {
+  room_.direct = constant(room_.irradiance.size(), {2, 3, 4});
+  SceneView view(*context_);
+  view.setSnapshot(room_);
+  ViewOptions options;
+  options.display = "difference";
+  for (const double factor : {0.25, 1.0, 1.0 + 1e-7, 1.5, 5.0}) {
+    std::vector<glm::dvec3> radiosity;
+    for (const Vertex& vertex : room_.mesh->vertices) {
+      const Side& side = room_.mesh->sides[vertex.side];
+      radiosity.push_back(side.emission + side.reflectance * glm::dvec3(2, 3, 4) / factor);
+    }
+    options.reference = std::make_shared<ReferenceLight>(referenceLight(room_.mesh, radiosity, "test"));
+    const double scale = view.exposureFor({{-0.5, 1, 3}, {-0.5, 1, 0}, {0, 1, 0}, 40}, 4.0 / 3, options);
+    const double most = std::abs(factor - 1);
+    if (most < 1e-5) {
+      EXPECT_GE(1 / scale, 0.01) << factor;
+    } else {
+      EXPECT_GT(1 / scale, 0.3 * most) << factor;
+      EXPECT_LT(1 / scale, 3 * most) << factor;
+    }
   }
 }
 

@@ -30,6 +30,20 @@ TEST(FalseColour, LightnessRisesAllTheWay) {
   EXPECT_EQ(falseColourAt(2), falseColourAt(1));
 }
 
+TEST(FalseColour, BothWaysFromZeroLightnessRises) {
+  for (const double way : {1.0, -1.0}) {
+    double before = lightness(divergingColourAt(0));
+    for (int k = 1; k <= 30; ++k) {
+      const double now = lightness(divergingColourAt(way * k / 30));
+      EXPECT_GT(now, before) << way * k / 30;
+      before = now;
+    }
+    const glm::vec3 half = divergingColourAt(way / 2);
+    EXPECT_EQ(half.x > half.z, way > 0) << "orange above, blue below";
+    EXPECT_EQ(divergingColourAt(3 * way), divergingColourAt(way));
+  }
+}
+
 TEST(FalseColour, PlacesLieWhereTheScaleHasThem) {
   EXPECT_DOUBLE_EQ(falseColourPlace(3, 12, false), 0.25);
   EXPECT_DOUBLE_EQ(falseColourPlace(12, 12, true), 1);
@@ -72,6 +86,11 @@ TEST(FalseColour, TheScaleHoldsNearlyAllThatReflects) {
   pixels.resize(1500, glm::vec4(900, 900, 900, kEmitterPixel));
   EXPECT_NEAR(scaleExposure(pixels), 1, 1e-6);
   EXPECT_EQ(scaleExposure({}), 1);
+  // Values below 0 count by their size.
+  for (glm::vec4& pixel : pixels) {
+    if (pixel.w == kSurfacePixel) pixel.w = kNegativePixel;
+  }
+  EXPECT_NEAR(scaleExposure(pixels), 1, 1e-6);
 }
 
 }  // namespace

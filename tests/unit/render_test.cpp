@@ -67,8 +67,13 @@ TEST_P(Rendering, EveryModeDrawsWithoutErrorsAndDiffersFromTheOthers) {
   std::vector<Image8> images;
   for (const DisplayMode& mode : displayModes())
     images.push_back(picture(room, show(std::string(mode.info.key))).srgb);
+  const auto showsNothing = [](const DisplayMode& mode) {
+    return mode.quantity == Quantity::kLastShot || mode.quantity == Quantity::kDifference;
+  };
   for (std::size_t i = 0; i < images.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
+      // No step was taken, and there is no light but direct light: 0 of the same scale.
+      if (showsNothing(displayModes()[i]) && showsNothing(displayModes()[k])) continue;
       EXPECT_GT(meanDifference(images[i], images[k]), 0.1)
           << displayModes()[i].info.key << " and " << displayModes()[k].info.key;
     }

@@ -28,7 +28,7 @@ void runProjection(Viewer& viewer, const std::string& text) {
   bool orthographic = viewer.camera().orthographic;
   orthographic = text.empty() ? !orthographic : text == "orthographic";
   viewer.navigator().setOrthographic(orthographic);
-  viewer.notice(orthographic ? "orthographic" : "perspective");
+  viewer.passingNotice(orthographic ? "orthographic" : "perspective");
 }
 
 std::string checkProjection(const std::string& text) {

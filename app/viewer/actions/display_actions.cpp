@@ -20,7 +20,11 @@ void nextDisplay(Viewer& viewer, const std::string&) {
   std::size_t at = 0;
   while (at < modes.size() && modes[at].info.key != shown) ++at;
   shown = modes[(at + 1) % modes.size()].info.key;
-  viewer.notice("display: " + std::string(displayMode(shown).info.title));
+  viewer.passingNotice("display: " + std::string(displayMode(shown).info.title));
+}
+
+std::optional<std::uint32_t> bouncesOf(const std::string& text) {
+  return text == "all" ? std::nullopt : std::optional(static_cast<std::uint32_t>(whole(text)));
 }
 
 }  // namespace
@@ -42,7 +46,7 @@ std::span<const Action> displayActions() {
        [](const std::string& a) { return checkKey(toneCurves(), false, a); }},
       {"unit",
        "watts|LM/W",
-       "The unit of false colours: W/m2, or lux with so many lumens per watt",
+       "The unit of false colours: W/m\u00b2, or lux with so many lumens per watt",
        {},
        [](Viewer& v, const std::string& a) {
          v.ui().settings.view.false_colour.lumens_per_watt = a == "watts" ? 0 : *parseNumber(a);
@@ -68,11 +72,15 @@ std::span<const Action> displayActions() {
        checkSwitch},
       {"bounces",
        "N|all",
-       "Only the light of the first N bounces, computing what they need",
+       "Only the light of up to N bounces, E + M E + ... + M^N E, computing what they need",
        {},
-       [](Viewer& v, const std::string& a) {
-         v.setBounces(a == "all" ? std::nullopt : std::optional(static_cast<std::uint32_t>(whole(a))));
-       },
+       [](Viewer& v, const std::string& a) { v.setBounces(bouncesOf(a)); },
+       checkBounces},
+      {"bounce-alone",
+       "N|all",
+       "Bounce N by itself, M^N E: the light of up to N bounces less that of up to N - 1",
+       {},
+       [](Viewer& v, const std::string& a) { v.setBounces(bouncesOf(a), true); },
        checkBounces},
       {"complete-bounces",
        "",

@@ -44,7 +44,7 @@ std::span<const Action> materialActions() {
        true},
       {"emission",
        "MATERIAL r,g,b",
-       "Give a material another emission [W/m^2]; the solve goes on with it",
+       "Give a material another emission [W/m\u00b2]; the solve goes on with it",
        {},
        runEmission,
        checkEmission,

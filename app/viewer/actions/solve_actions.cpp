@@ -145,7 +145,7 @@ std::span<const Action> solveActions() {
        checkFraction},
       {"sky",
        "r,g,b",
-       "Solve again under a uniform sky of this radiosity [W/m^2] (auto: 1,1,1 where no face "
+       "Solve again under a uniform sky of this radiosity [W/m\u00b2] (auto: 1,1,1 where no face "
        "emits)",
        {},
        [](Viewer& v, const std::string& a) {

@@ -19,12 +19,18 @@ const ImVec4 kChannels[3] = {{0.86f, 0.36f, 0.3f, 1}, {0.45f, 0.72f, 0.33f, 1}, 
 
 double sum(const glm::dvec3& x) { return x.x + x.y + x.z; }
 
-/// Bars of the three channels side by side, each of its own emission; dim beyond the bounces shown.
+/// Which bounces are shown: from `first` on, up to `last`; all light where that is 0.
+struct ShownBounces {
+  std::uint32_t first = 0, last = 0;
+  bool has(std::size_t k) const { return last == 0 || (first <= k && k <= last); }
+};
+
+/// Bars of the three channels side by side, each of its own emission; dim where the bounce is not shown.
 void bounceBars(const std::vector<glm::dvec3>& power, ImVec2 at, float slot, float height,
-                std::uint32_t shown) {
+                const ShownBounces& shown) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   for (std::size_t k = 0; k < power.size(); ++k) {
-    const float alpha = shown == 0 || k <= shown ? 1.0f : 0.3f;
+    const float alpha = shown.has(k) ? 1.0f : 0.3f;
     const float left = at.x + static_cast<float>(k) * slot, bar = std::floor((slot - 2) / 3);
     for (int c = 0; c < 3; ++c) {
       if (power[0][c] <= 0 || power[k][c] <= 0) continue;
@@ -59,7 +65,7 @@ void bounceGrid(ImVec2 at, float left, float width, float height) {
   }
 }
 
-void bounceChart(Viewer& viewer, const BounceLight& light, std::uint32_t shown) {
+void bounceChart(Viewer& viewer, const BounceLight& light, const ShownBounces& shown) {
   const float em = ImGui::GetFontSize(), height = kHeight * em;
   const float width = std::floor(ImGui::GetContentRegionAvail().x), left = 3.4f * em;
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -73,8 +79,12 @@ void bounceChart(Viewer& viewer, const BounceLight& light, std::uint32_t shown) 
   if (place < 0 || place >= static_cast<float>(light.power.size())) return;
   const auto k = static_cast<std::size_t>(place);
   const bool known = k >= 1 && k <= light.received.size();
-  tooltip(bounceText(light.power, k) + (known ? "\nClick: only the light up to this bounce" : ""));
-  if (clicked && known) viewer.perform("bounces", shown == k ? "all" : std::to_string(k));
+  tooltip(bounceText(light.power, k) +
+          (known ? "\nClick: only the light up to this bounce. With Shift: this bounce alone" : ""));
+  if (!clicked || !known) return;
+  const bool alone = ImGui::GetIO().KeyShift;
+  const bool off = shown.last == k && (shown.first == k) == alone;
+  viewer.perform(alone ? "bounce-alone" : "bounces", off ? "all" : std::to_string(k));
 }
 
 void ratioLine(const SessionState& state, const std::vector<glm::dvec3>& power) {
@@ -94,12 +104,26 @@ void ratioLine(const SessionState& state, const std::vector<glm::dvec3>& power) 
 }
 
 void chooseBounces(Viewer& viewer, std::size_t known, std::uint32_t shown) {
-  label("Light", "Only the light of so many bounces: E + M E + ... + M^n E; one is direct light");
+  const bool alone = viewer.settings().view.light.oneBounce();
+  label("Light",
+        "Only the light of up to so many bounces, E + M E + ... + M^n E, where one is direct light; or of "
+        "that bounce alone, M^n E [W/m\u00b2]");
   const int all = static_cast<int>(known) + 1;
   int n = shown == 0 ? all : static_cast<int>(shown);
-  const std::string text = n == all ? "all light" : countedText(shown, "bounce");
+  const std::string text = n == all ? "all light"
+                           : alone  ? "bounce " + countText(shown) + " alone"
+                                    : "up to " + countedText(shown, "bounce");
   if (ImGui::SliderInt("##bounces-shown", &n, 1, all, text.c_str(), ImGuiSliderFlags_NoInput))
-    viewer.perform("bounces", n == all ? "all" : std::to_string(n));
+    viewer.perform(alone ? "bounce-alone" : "bounces", n == all ? "all" : std::to_string(n));
+  bool one = alone;
+  ImGui::BeginDisabled(shown == 0);
+  if (ImGui::Checkbox("This bounce alone", &one))
+    viewer.perform(one ? "bounce-alone" : "bounces", std::to_string(shown));
+  ImGui::EndDisabled();
+  tooltip(
+      "M^n E = B_n \u2212 B_(n\u22121) [W/m\u00b2], without what came before it, exposed for itself (L keeps "
+      "an "
+      "exposure). The slider, or a click on a bar with Shift, chooses the bounce");
 }
 
 }  // namespace
@@ -131,7 +155,8 @@ void bouncesContent(Viewer& viewer) {
   const std::uint32_t shown = shownBounces(snapshot, viewer.ui().settings.view.light);
   const bool known = snapshot.bounce_light && snapshot.bounce_light->power.size() > 1;
   if (known) {
-    bounceChart(viewer, *snapshot.bounce_light, shown);
+    const bool alone = viewer.settings().view.light.oneBounce();
+    bounceChart(viewer, *snapshot.bounce_light, {alone ? shown : 0, shown});
     ratioLine(state, snapshot.bounce_light->power);
   }
   if (known && !snapshot.bounce_light->received.empty()) {
@@ -139,9 +164,7 @@ void bouncesContent(Viewer& viewer) {
     return;
   }
   const std::string wait = bounceWaitText(state);
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextDisabled("%s", wait.empty() ? "Worked out when the solve rests" : (wait + ".").c_str());
-  ImGui::PopTextWrapPos();
+  dimmed(wait.empty() ? "Worked out when the solve rests" : wait + ".");
   if (wait.empty() || snapshot.bounce_wait.no_room) return;
   if (ImGui::Button("Compute them at rest")) viewer.perform("complete-bounces");
   tooltip("Computes what is missing once the solve rests, then the light of each bounce");

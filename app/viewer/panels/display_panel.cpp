@@ -105,7 +105,9 @@ void histogram(Viewer& viewer) {
 void lightChoices(Viewer& viewer) {
   const DisplaySettings& settings = viewer.settings();
   label("Difference", "What the display \"Difference\" compares with");
+  ImGui::BeginDisabled(!viewer.state().snapshot);
   if (ImGui::Button("Remember")) viewer.perform("remember");
+  ImGui::EndDisabled();
   tooltip(
       "K: the light as it is shown now. The display \"Difference\" then shows how what is shown differs from "
       "it");
@@ -125,7 +127,8 @@ void lightChoices(Viewer& viewer) {
   on = settings.view.ambient;
   if (ImGui::Checkbox("Ambient term", &on)) viewer.perform("ambient", on ? "on" : "off");
   tooltip(
-      "G: adds an estimate of the light still unshot, sum A U / sum A / (1 - mean rho), so that a solve in "
+      "G: adds an estimate of the light still unshot, \u2211 A U / \u2211 A / (1 \u2212 mean \u03c1) "
+      "[W/m\u00b2], so that a solve in "
       "its first "
       "moments looks nearly finished. Never part of the solution");
   ImGui::EndDisabled();

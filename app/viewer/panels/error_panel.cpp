@@ -87,21 +87,25 @@ void errorsSection(Viewer& viewer) {
   const std::optional<double>& truth = state.measures.true_error;
   errorBar(
       "Solver", bound < kMostShown ? bound : 0, solverText(state.measures), {0.62f, 0.45f, 0.16f, 1},
-      "Distance to the exact solution for these form factors: a bound, proven at every step; and once the "
+      "Distance to the exact solution B* for these form factors, RMS of B \u2212 B* over RMS of B* \u2212 E "
+      "[%]: a bound, proven at every step; and once the "
       "mode \"direct\" has solved this system, the true distance, the brighter bar (Again: shoot once more, "
       "in "
       "any mode). The bars are logarithmic, from 0.01 % to 100 %",
       truth.value_or(0));
   errorBar("Form factors", state.estimates.form_factor.value, estimateText(state.estimates.form_factor),
            {0.24f, 0.45f, 0.62f, 1},
-           "Estimated at random places against far denser rays, with its 95 % interval; refined while "
-           "nothing else is "
-           "to be done");
+           "RMS of \u03c1 (K' \u2212 K) S, carried on by all bounces, over RMS of the reflected light B "
+           "\u2212 E [%]: K' "
+           "are far denser rays at random places. An estimate with its 95 % interval, refined while nothing "
+           "else is to be done");
   errorBar("Mesh", state.estimates.discretisation.value, estimateText(state.estimates.discretisation),
            {0.34f, 0.52f, 0.3f, 1},
-           "What the mesh adds: light shown against light gathered at random points, carried on by all "
-           "bounces; an "
-           "estimate with its 95 % interval");
+           "What the mesh adds to it: RMS of B(x) \u2212 E(x) \u2212 \u03c1 (K' B)(x), the light shown "
+           "against the light "
+           "gathered at random points x, carried on by all bounces, over RMS of B \u2212 E [%]; less what "
+           "the form "
+           "factors explain. An estimate with its 95 % interval");
 }
 
 namespace {
@@ -149,7 +153,7 @@ void convergenceSection(Viewer& viewer) {
   if (ImGui::RadioButton("Shots", axis == PlotAxis::kShots)) viewer.perform("plot", "shots");
   ImGui::SameLine(0, 0.3f * ImGui::GetFontSize());
   if (ImGui::RadioButton("Rows", axis == PlotAxis::kRows)) viewer.perform("plot", "rows");
-  tooltip("Columns and rows of form factors computed");
+  tooltip("Columns and rows of the form factors K computed, those kept from before not counted");
   ImGui::PopStyleVar();
   ImGui::SetCursorPos(corner);
   if (state.rival) {

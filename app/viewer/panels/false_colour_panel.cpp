@@ -6,9 +6,12 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/text.h"
 #include "render/display_modes.h"
+#include "viewer/comparison.h"
 #include "viewer/panels/widgets.h"
 
 namespace unshot {
@@ -22,8 +25,7 @@ float encoded(float linear) {
   return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
-ImU32 colourAt(double place) {
-  const glm::vec3 c = falseColourAt(place);
+ImU32 colourOf(const glm::vec3& c) {
   return ImGui::GetColorU32(ImVec4(encoded(c.x), encoded(c.y), encoded(c.z), 1));
 }
 
@@ -31,28 +33,100 @@ const char* unitText(const FalseColour& how) { return how.lumens_per_watt > 0 ? 
 
 bool isShown(const ViewOptions& view) { return displayMode(view.display).false_colour; }
 
-std::string titleOf(const DisplayMode& mode, const FalseColour& how) {
-  if (mode.quantity == Quantity::kFormFactors) return "Form factors, F_ij / A_j [1/m\u00b2]";
-  const bool arrives = mode.quantity == Quantity::kIrradiance;
-  return std::string(arrives ? "Irradiance H" : "Radiosity B") + " [" + unitText(how) + "]";
+/// What stands above the scale, with its unit.
+std::string titleOf(const Viewer& viewer, const DisplayMode& mode, const FalseColour& how) {
+  const std::string unit = std::string(" [") + unitText(how) + "]";
+  switch (mode.quantity) {
+    case Quantity::kFormFactors:
+      return "Form factors, G_ij / A_j [1/m\u00b2]";
+    case Quantity::kIrradiance:
+      return "Irradiance H" + unit;
+    case Quantity::kUnshot:
+      return "Unshot radiosity U" + unit;
+    case Quantity::kBounces:
+      return "Expected bounces v [surfaces met]";
+    case Quantity::kResidual:
+      return "Residual of the mesh, RMS" + unit;
+    case Quantity::kLastShot:
+      return "What the last step added to B" + unit;
+    case Quantity::kDifference:
+      return differenceTitle(viewer.state(), viewer.settings().view);
+    default:
+      return "Radiosity B" + unit;
+  }
 }
 
-// Numbers under the bar, as many as have room.
-void ticks(const FalseColour& how, double top, const ImVec2& at, float width, float height) {
-  ImDrawList& list = *ImGui::GetWindowDrawList();
+/// Why there is nothing to show; empty where there is.
+const char* missingText(const Viewer& viewer, Quantity quantity) {
+  const Snapshot& snapshot = *viewer.shownSnapshot();
+  if (quantity == Quantity::kBounces && !snapshot.bounces) return "not known yet";
+  if (quantity == Quantity::kResidual && !snapshot.residual)
+    return "not known yet: estimated once the solve rests";
+  const ViewOptions& view = viewer.settings().view;
+  if (quantity == Quantity::kFormFactors && !view.form_factors) return "no patch is picked: click a surface";
+  if (quantity == Quantity::kLastShot && !view.last_shot) return "no single step was taken: N";
+  return "";
+}
+
+struct Tick {
+  double place;  ///< 0 left, 1 right
+  std::string text;
+};
+
+std::vector<Tick> ticksOf(const DisplayMode& mode, const FalseColour& how, double top) {
   const double unit = how.lumens_per_watt > 0 ? how.lumens_per_watt : 1;
-  const ImU32 colour = ImGui::GetColorU32(ImGuiCol_Text);
-  float free_from = at.x - ImGui::GetFontSize();
-  std::vector<double> values = isolines(top, how);
-  if (!how.logarithmic) values.insert(values.begin(), 0.0);
+  const auto textOf = [&](double value) {
+    return mode.quantity == Quantity::kDifference ? percentText(value) : figureText(unit * value);
+  };
+  std::vector<Tick> out;
+  const std::vector<double> values = isolines(top, how);
+  if (mode.diverging) {
+    for (auto value = values.rbegin(); value != values.rend(); ++value)
+      out.push_back({(1 - falseColourPlace(*value, top, how.logarithmic)) / 2, "\u2212" + textOf(*value)});
+  }
+  if (mode.diverging || !how.logarithmic) out.push_back({mode.diverging ? 0.5 : 0, textOf(0)});
   for (const double value : values) {
-    const float x = at.x + width * static_cast<float>(falseColourPlace(value, top, how.logarithmic));
+    const double place = falseColourPlace(value, top, how.logarithmic);
+    out.push_back({mode.diverging ? (1 + place) / 2 : place, textOf(value)});
+  }
+  return out;
+}
+
+/// Numbers under the bar, as many as have room: from 0 on, to both sides where it is in the middle.
+void drawTicks(const std::vector<Tick>& ticks, bool diverging, const ImVec2& at, float width, float height) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImU32 colour = ImGui::GetColorU32(ImGuiCol_Text);
+  const float gap = 0.5f * ImGui::GetFontSize();
+  std::vector<std::pair<float, float>> taken;
+  const auto draw = [&](const Tick& tick) {
+    const float x = at.x + width * static_cast<float>(tick.place);
     list.AddLine({x, at.y + height}, {x, at.y + 1.3f * height}, colour);
-    const std::string text = figureText(unit * value);
-    const float half = 0.5f * ImGui::CalcTextSize(text.c_str()).x;
-    if (x - half < free_from) continue;
-    list.AddText({x - half, at.y + 1.4f * height}, colour, text.c_str());
-    free_from = x + half + 0.5f * ImGui::GetFontSize();
+    const float half = 0.5f * ImGui::CalcTextSize(tick.text.c_str()).x;
+    const bool over = std::any_of(taken.begin(), taken.end(), [&](const auto& other) {
+      return x - half < other.second + gap && x + half > other.first - gap;
+    });
+    const float end = at.x + width + ImGui::GetFontSize();
+    if (over || x - half < at.x - ImGui::GetFontSize() || x + half > end) return;
+    list.AddText({x - half, at.y + 1.4f * height}, colour, tick.text.c_str());
+    taken.emplace_back(x - half, x + half);
+  };
+  const std::size_t middle = diverging ? ticks.size() / 2 : 0;
+  for (std::size_t k = middle; k < ticks.size(); ++k) {
+    draw(ticks[k]);
+    if (k > middle && 2 * middle >= k) draw(ticks[2 * middle - k]);
+  }
+}
+
+void drawBar(bool diverging, const ImVec2& at, float width, float height) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const auto colour = [&](double place) {
+    return diverging ? colourOf(divergingColourAt(2 * place - 1)) : colourOf(falseColourAt(place));
+  };
+  for (int k = 0; k < kParts; ++k) {
+    const auto x = [&](int part) { return at.x + width * static_cast<float>(part) / kParts; };
+    // Neither end of a part lies beyond the middle, where colours change their kind.
+    const ImU32 left = colour((k + 1e-6) / kParts), right = colour((k + 1 - 1e-6) / kParts);
+    list.AddRectFilledMultiColor({x(k), at.y}, {x(k + 1), at.y + height}, left, right, right, left);
   }
 }
 
@@ -83,13 +157,17 @@ void chooseUnit(Viewer& viewer) {
 void falseColourChoices(Viewer& viewer) {
   const ViewOptions& view = viewer.ui().settings.view;
   if (!isShown(view)) return;
-  const bool light = displayMode(view.display).quantity != Quantity::kFormFactors;
+  const DisplayMode& mode = displayMode(view.display);
+  const bool light = mode.quantity != Quantity::kFormFactors && mode.quantity != Quantity::kBounces &&
+                     mode.quantity != Quantity::kDifference;
   if (light) chooseUnit(viewer);
   bool on = view.false_colour.isolines;
-  if (ImGui::Checkbox("Isolines", &on)) viewer.perform("isolines", on ? "on" : "off");
-  tooltip("Lines where the legend's values lie");
-  if (!light) return;
-  ImGui::SameLine(9.0f * ImGui::GetFontSize());
+  if (!mode.diverging) {
+    if (ImGui::Checkbox("Isolines", &on)) viewer.perform("isolines", on ? "on" : "off");
+    tooltip("Lines where the legend's values lie");
+  }
+  if (mode.quantity == Quantity::kFormFactors) return;
+  if (!mode.diverging) ImGui::SameLine(9.0f * ImGui::GetFontSize());
   on = view.false_colour.logarithmic;
   if (ImGui::Checkbox("Logarithmic", &on)) viewer.perform("logarithmic", on ? "on" : "off");
   tooltip("Three decades, instead of from 0 on");
@@ -97,7 +175,10 @@ void falseColourChoices(Viewer& viewer) {
 
 void buildFalseColourLegend(const Viewer& viewer, LowerEdge& edge) {
   const ViewOptions& view = viewer.settings().view;
-  if (!viewer.shownSnapshot() || !isShown(view)) return;
+  const DisplayMode& mode = displayMode(view.display);
+  // Signed light in colours of its own has no scale but what is shown as white.
+  const bool white = mode.quantity == Quantity::kUnshot && !mode.false_colour;
+  if (!viewer.shownSnapshot() || !(mode.false_colour || white)) return;
   const double top = 1 / (viewer.exposure() * std::exp2(view.exposure_ev));
   const float em = ImGui::GetFontSize(), width = std::min(kBarWidth * em, edge.scene_width - 6 * em);
   if (!(width > 4 * em)) return;
@@ -107,20 +188,21 @@ void buildFalseColourLegend(const Viewer& viewer, LowerEdge& edge) {
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing |
                    ImGuiWindowFlags_NoInputs);
-  const FalseColour how = falseColourOf(view, displayMode(view.display));
-  ImGui::TextUnformatted(titleOf(displayMode(view.display), how).c_str());
-  const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const ImVec2 at(corner.x + em, corner.y);  // room for numbers at both ends
-  const float height = kBarHeight * em;
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  for (int k = 0; k < kParts; ++k) {
-    const auto x = [&](int part) { return at.x + width * static_cast<float>(part) / kParts; };
-    list.AddRectFilledMultiColor({x(k), at.y}, {x(k + 1), at.y + height}, colourAt(double{1} * k / kParts),
-                                 colourAt((k + 1.0) / kParts), colourAt((k + 1.0) / kParts),
-                                 colourAt(double{1} * k / kParts));
+  const FalseColour how = falseColourOf(view, mode);
+  const std::string missing = missingText(viewer, mode.quantity);
+  if (white) {
+    wrapped("Unshot radiosity U: white at " + figureText(top) + " W/m\u00b2, blue below 0", width + 2 * em);
+  } else if (!missing.empty()) {
+    wrapped(titleOf(viewer, mode, how) + ": " + missing, width + 2 * em);
+  } else {
+    wrapped(titleOf(viewer, mode, how), width + 2 * em);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 at(corner.x + em, corner.y);  // room for numbers at both ends
+    const float height = kBarHeight * em;
+    drawBar(mode.diverging, at, width, height);
+    drawTicks(ticksOf(mode, how, top), mode.diverging, at, width, height);
+    ImGui::Dummy({width + 2 * em, 1.4f * height + em});
   }
-  ticks(how, top, at, width, height);
-  ImGui::Dummy({width + 2 * em, 1.4f * height + em});
   edge.right_width = ImGui::GetWindowWidth() + 0.7f * em;
   edge.right -= ImGui::GetWindowHeight() + 0.7f * em;
   ImGui::End();

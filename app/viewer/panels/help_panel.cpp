@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "viewer/actions/actions.h"
+#include "viewer/panels/widgets.h"
 
 namespace unshot {
 namespace {
@@ -55,9 +56,7 @@ void showGroup(const HelpGroup& group, float width) {
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(row.keys.c_str());
     ImGui::TableNextColumn();
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(row.what.c_str());
-    ImGui::PopTextWrapPos();
+    wrapped(row.what);
   }
   ImGui::EndTable();
   ImGui::Spacing();

@@ -8,6 +8,7 @@
 #include "viewer/panels/lecture_panel.h"
 #include "viewer/panels/widgets.h"
 #include "viewer/teaching.h"
+#include "viewer/window_words.h"
 
 namespace unshot {
 namespace {
@@ -99,21 +100,15 @@ void hemicubeContent(Viewer& viewer, float side) {
   const std::uint32_t patch = teaching.hemicubePatch();
   const SessionState& state = viewer.state();
   if (!state.snapshot || patch == kNone || patch >= state.snapshot->mesh->patch_count) {
-    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + side);
-    ImGui::TextDisabled("No patch is picked and none has light to shoot. Click a surface.");
-    ImGui::PopTextWrapPos();
+    dimmed("No patch is picked and none has light to shoot. Click a surface.", side);
     return;
   }
-  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + side);
-  ImGui::TextUnformatted(("Patch " + patchText(*state.snapshot->mesh, patch)).c_str());
-  ImGui::PopTextWrapPos();
+  wrapped("Patch " + patchText(*state.snapshot->mesh, patch), side);
   tooltip(teaching.hemicubeIsPicked() ? "The picked patch. Esc: the patch that shoots"
                                       : "The patch with the most unshot power, or the one of the last single "
                                         "step. Click a surface for another");
   if (const auto problem = teaching.problem()) {
-    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + side);
-    ImGui::TextUnformatted(problem->what());
-    ImGui::PopTextWrapPos();
+    wrapped(windowWords(problem->what()), side);
     return;
   }
   cross(viewer, side);

@@ -1,4 +1,4 @@
-// The lecture's matrix page: M = R F gathered to groups, its powers and partial sums, and how the series
+// The lecture's matrix page: M = R G gathered to groups, its powers and partial sums, and how the series
 // grows.
 #include <algorithm>
 #include <array>
@@ -75,7 +75,7 @@ void cellTip(Viewer& viewer, const std::vector<double>& values, const std::strin
   text += name + " there: " + channelText(values[i * m.size() + j]);
   const double r =
       teaching.choices.allow_divergence ? teaching.choices.reflectance : m.groups[i].reflectance[channel];
-  text += "\nR_i = " + channelText(r) + ", F_ij = " + channelText(m.factor(i, j)) + ", R_i F_ij = " +
+  text += "\nR_i = " + channelText(r) + ", G_ij = " + channelText(m.factor(i, j)) + ", R_i G_ij = " +
           channelText(teaching.choices.allow_divergence ? r * m.factor(i, j) : m.at(i, j)[channel]);
   if (!m.groups[j].sends) text += "\nj holds no light: what it would send was not computed";
   tooltip(text);
@@ -145,7 +145,7 @@ void chooseChannel(Viewer& viewer) {
     if (c > 0) ImGui::SameLine();
     if (ImGui::RadioButton(kNames[static_cast<std::size_t>(c)], viewer.teaching().choices.channel == c))
       viewer.perform("matrix-channel", kNames[static_cast<std::size_t>(c)]);
-    tooltip("The channel whose reflectance R is in M = R F");
+    tooltip("The channel whose reflectance R is in M = R G");
   }
 }
 
@@ -179,6 +179,7 @@ void chooseReflectance(Viewer& viewer) {
     std::snprintf(text, sizeof text, "%.2f", static_cast<double>(r));
     viewer.perform("matrix-reflectance", text);
   }
+  tooltip("R of every group in M = R G, 0.5 to 1.2: above 1 the terms of the series may grow");
 }
 
 /// Bars of the norms of M^k, logarithmic; red where the series has no sum.
@@ -315,10 +316,10 @@ void matrixPage(Viewer& viewer) {
     return;
   }
   const GatheredMatrix& m = *insight->matrix;
-  wrapped("M = R F of " + countText(m.group.size()) + " patches in " + countText(m.size()) +
+  wrapped("M = R G of " + countText(m.group.size()) + " patches in " + countText(m.size()) +
           " groups: row i receives, column j sends. B = E + M B");
   tooltip(
-      "R_i F_ij: the part of group j's radiosity that group i reflects, by the solver's own form factors, "
+      "R_i G_ij: the part of group j's radiosity that group i reflects, by the solver's own form factors, "
       "means "
       "over areas. Patches of a group lie together on one side of a surface as far as that many groups "
       "allow");
@@ -337,7 +338,7 @@ void matrixPage(Viewer& viewer) {
   const float gap = ImGui::GetStyle().ItemSpacing.x, room = ImGui::GetContentRegionAvail().x;
   const bool beside = room > 20 * em;
   const float side = std::floor(beside ? (room - 2 * gap) / 2 : room);
-  map(viewer, "##M", series.power(1), "M = R F", side);
+  map(viewer, "##M", series.power(1), "M = R G", side);
   if (beside) ImGui::SameLine(0, 2 * gap);
   const std::vector<double>& other = choices.sums ? series.sum(choices.power) : series.power(choices.power);
   map(viewer, "##other", other, termText(choices.power, choices.sums), side);

@@ -38,7 +38,8 @@ bool beginChannels(const char* id) {
   return true;
 }
 
-void row(const char* name, const glm::dvec3& value, std::string_view unit, std::string_view tip) {
+void row(const char* name, const glm::dvec3& value, std::string_view unit, std::string_view what) {
+  const std::string tip = std::string(what) + (unit.empty() ? "" : " [" + std::string(unit) + "]");
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::TextUnformatted(name);
@@ -60,12 +61,11 @@ void equationRows(const PatchInsight& p) {
   row("= E_i", p.emission, kLight, "Light that it emits by itself. Known");
   row("+ R_i", p.reflectance, "",
       "Part of the light received that is reflected, 0 to 1. Known; this is where the BRDF is");
-  row("\u00d7 \u2211 F_ij B_j", p.gathered, kLight,
-      "Light received from all patches j, F_ij of i's view being filled by j: the sum over the form factors "
-      "at hand "
-      "with the radiosities as they are now");
+  row("\u00d7 \u2211 G_ij B_j", p.gathered, kLight,
+      "Light received from all patches j, the form factor G_ij being the part of i's view that j fills: "
+      "the sum over those at hand with the radiosities as they are now");
   row("right side", p.emission + p.reflectance * p.gathered, kLight,
-      "E_i + R_i \u2211 F_ij B_j: equal to B_i once all is shot");
+      "E_i + R_i \u2211 G_ij B_j: equal to B_i once all is shot");
   row("difference", p.emission + p.reflectance * p.gathered - p.radiosity, kLight,
       "What is missing of B_i: light that others have not shot yet, or whose form factors are not at hand");
   row("of it shot: H_i", p.received, kLight, "Irradiance: the part of the sum that others have shot already");
@@ -88,9 +88,24 @@ void sources(Viewer& viewer, const PatchInsight& p) {
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   ImGui::TableNextColumn();
   ImGui::TextUnformatted("patch j");
-  for (const char* name : {"F_ij", "B_j (G)", "share"}) {
+  tooltip(
+      "Those that most of the light received at patch i comes from; framed in the picture while the mouse is "
+      "over one");
+  struct Column {
+    const char *name, *tip;
+  };
+  static constexpr std::array<Column, 3> kColumns = {
+      {{"G_ij",
+        "Form factor: the part of i's view that patch j fills, 0 to 1. Also the part of i's light that "
+        "arrives at j"},
+       {"B_j (G)", "Radiosity of patch j, its green channel [W/m\u00b2]"},
+       {"share",
+        "G_ij B_j over \u2211 G_ij B_j, summed over the channels: the part of the light received that comes "
+        "from j [%]"}}};
+  for (const Column& column : kColumns) {
     ImGui::TableNextColumn();
-    rightAligned(name);
+    rightAligned(column.name);
+    tooltip(column.tip);
   }
   for (const PatchSource& source : p.sources) {
     const bool sky = source.patch >= mesh.patch_count;
@@ -156,10 +171,10 @@ struct Effect {
 
 constexpr std::array<Effect, 11> kEffects = {{
     {"Colour bleeding", "yes",
-     "A red wall reflects red light, and that is received like any other: R_i F_ij B_j per channel."},
+     "A red wall reflects red light, and that is received like any other: R_i G_ij B_j per channel."},
     {"Indirect light", "yes", "The sum over all bounces, I + M + M\u00b2 + \u2026, is the solution itself."},
     {"Soft shadows", "yes",
-     "Lamps have area: a point sees a part of it, and F_ij says which. As sharp as the mesh is fine."},
+     "Lamps have area: a point sees a part of it, and G_ij says which. As sharp as the mesh is fine."},
     {"View independence", "yes",
      "L = B / \u03c0 is the same in all directions: solved once, it is seen from everywhere."},
     {"Sun, hard shadows", "limits",
@@ -189,7 +204,7 @@ bool buttonBeside(const char* text) {
 void equationPage(Viewer& viewer) {
   if (!viewer.picking().picked() || viewer.picking().picked()->pick.patch == kNone) {
     wrapped(
-        "B_i = E_i + R_i \u2211 F_ij B_j. Click a surface to see it with the numbers of the patch there.");
+        "B_i = E_i + R_i \u2211 G_ij B_j. Click a surface to see it with the numbers of the patch there.");
     return;
   }
   const PatchInsight* p = viewer.teaching().patch();
@@ -200,7 +215,7 @@ void equationPage(Viewer& viewer) {
   const Mesh& mesh = *viewer.state().snapshot->mesh;
   ImGui::TextUnformatted(("Patch i: " + patchText(mesh, p->patch) + "; means over it").c_str());
   equationRows(*p);
-  line("\u2211 F_ij",
+  line("\u2211 G_ij",
        figureText(p->row_sum) + (p->missing > 0 ? ", " + countText(p->missing) + " columns missing" : ""),
        "Sum over the patches whose form factors are at hand: 1 where all that i sees is among them");
   sources(viewer, *p);

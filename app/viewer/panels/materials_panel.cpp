@@ -59,8 +59,8 @@ bool editColour(const char* id, Colour& colour) {
 
 void editMaterial(Viewer& viewer, const Material& m) {
   label("Reflects",
-        "Reflectance rho, 0 to 1 per channel: what part of the light that arrives leaves again, B = "
-        "E + rho H. The solution follows by shooting the difference");
+        "Reflectance \u03c1, 0 to 1 per channel: what part of the light that arrives leaves again, B = "
+        "E + \u03c1 H. The solution follows by shooting the difference");
   Colour rho = floats(m.reflectance);
   if (editColour("##reflects", rho)) viewer.perform("reflectance", m.name + " " + colourText(doubles(rho)));
   label("Emits", "Whether it is a light: what is switched on again emits what it did");
@@ -73,10 +73,10 @@ void editMaterial(Viewer& viewer, const Material& m) {
   Colour colour = floats(m.emission / strength);
   if (editColour("##colour", colour))
     viewer.perform("emission", m.name + " " + colourText(strength * doubles(colour)));
-  tooltip("Colour of its emission, the strongest channel 1");
-  label("Strength", "Emission E [W/m^2] of its strongest channel: what leaves a square metre of it");
+  tooltip("Colour of its emission, E over its strongest channel: 0 to 1");
+  label("Strength", "Emission E [W/m\u00b2] of its strongest channel: what leaves a square metre of it");
   float value = static_cast<float>(strength);
-  if (ImGui::SliderFloat("##strength", &value, kLeastStrength, kMostStrength, "%.3g W/m^2",
+  if (ImGui::SliderFloat("##strength", &value, kLeastStrength, kMostStrength, "%.3g W/m\u00b2",
                          ImGuiSliderFlags_Logarithmic))
     viewer.perform("emission", m.name + " " + colourText(static_cast<double>(value) / strength * m.emission));
 }
@@ -95,9 +95,9 @@ void editButtons(Viewer& viewer) {
     tooltip(tip);
     ImGui::EndDisabled();
   };
-  button("Undo", "undo", edits.canUndo(), "Ctrl+Z");
+  button("Undo", "undo", edits.canUndo(), "Ctrl+Z: takes the last change back");
   ImGui::SameLine();
-  button("Redo", "redo", edits.canRedo(), "Ctrl+Y");
+  button("Redo", "redo", edits.canRedo(), "Ctrl+Y: makes it again");
   ImGui::SameLine();
   button("Reset", "reset-materials", edits.edited(), "All materials as the scene was opened; can be undone");
   ImGui::SameLine();

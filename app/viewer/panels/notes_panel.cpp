@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "viewer/panels/widgets.h"
+#include "viewer/window_words.h"
 
 namespace unshot {
 namespace {
@@ -38,10 +39,10 @@ void note(const Diagnostic& d) {
   const float indent = 0.8f * ImGui::GetFontSize();
   ImGui::BeginGroup();
   dot(d.severity == Severity::kWarning ? kWarning : kNote);
-  wrapped(d.message);
+  wrapped(windowWords(d.message));
   ImGui::Indent(indent);
   if (!d.where.empty()) dimmed(shortPlace(d.where));
-  if (!d.advice.empty()) dimmed("Try: " + d.advice);
+  if (!d.advice.empty()) dimmed("Try: " + windowWords(d.advice));
   ImGui::Unindent(indent);
   ImGui::EndGroup();
   tooltip(d.where.empty() ? d.code : d.code + ", " + d.where);

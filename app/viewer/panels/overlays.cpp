@@ -1,6 +1,7 @@
 // What lies over the scene: messages, what is being loaded, help and prompts.
 #include <algorithm>
 
+#include "base/text.h"
 #include "viewer/panels/help_panel.h"
 #include "viewer/panels/panels.h"
 #include "viewer/panels/picked_panel.h"
@@ -23,16 +24,21 @@ void errorWindow(Viewer& viewer, float middle) {
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.24f, 0.09f, 0.08f, 0.96f));
   ImGui::PushStyleColor(ImGuiCol_Border, ImVec4(0.75f, 0.3f, 0.25f, 1));
   ImGui::Begin("message", nullptr, kFixed);
-  ImGui::PushTextWrapPos(std::min(2 * middle - 4 * size, 36 * size));
-  if (!error.where().empty()) ImGui::TextUnformatted(error.where().c_str());
-  ImGui::TextUnformatted(error.what());
+  const float width = std::min(2 * middle - 4 * size, 36 * size);
+  if (!error.where().empty()) wrapped(error.where(), width);
+  wrapped(error.what(), width);
   if (!error.advice().empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.9f, 0.75f, 0.65f, 1));
-    ImGui::TextUnformatted(("Try: " + error.advice()).c_str());
+    wrapped("Try: " + error.advice(), width);
     ImGui::PopStyleColor();
   }
-  ImGui::PopTextWrapPos();
-  if (ImGui::Button("Close")) viewer.perform("dismiss");
+  const std::size_t more = viewer.messages().waiting();
+  if (ImGui::Button(more > 0 ? "Next###close" : "Close###close")) viewer.perform("dismiss");
+  tooltip("Esc");
+  if (more > 0) {
+    ImGui::SameLine();
+    ImGui::TextUnformatted((countedText(more, "more message") + " to read").c_str());
+  }
   ImGui::End();
   ImGui::PopStyleColor(2);
 }
@@ -74,9 +80,36 @@ void line(const char* id, const std::string& text, ImVec2 at, ImVec2 pivot) {
   ImGui::End();
 }
 
+/// Files that were written and the like, above the lower edge. Where they stay there is a button to close
+/// them.
+void noticeWindow(Viewer& viewer, const std::vector<std::string>& lines, const ImVec2& at, float room) {
+  const bool stays = viewer.messages().stays();
+  std::vector<std::string> broken;
+  float widest = 0;
+  const float button = stays ? ImGui::CalcTextSize("\u00d7").x + 3 * ImGui::GetStyle().FramePadding.x : 0;
+  for (const std::string& one : lines) {
+    broken.push_back(brokenText(one, room - button));
+    widest = std::max(widest, ImGui::CalcTextSize(broken.back().c_str()).x);
+  }
+  // Beside the lecture the scene may be narrower than a word.
+  const float half = (widest + button) / 2 + ImGui::GetStyle().WindowPadding.x + 2;
+  ImGui::SetNextWindowPos({std::max(at.x, half), at.y}, ImGuiCond_Always, {0.5f, 1});
+  ImGui::SetNextWindowBgAlpha(0.85f);
+  ImGui::Begin("notice", nullptr, kFixed | (stays ? 0 : ImGuiWindowFlags_NoInputs));
+  ImGui::BeginGroup();
+  for (const std::string& one : broken) ImGui::TextUnformatted(one.c_str());
+  ImGui::EndGroup();
+  if (stays) {
+    ImGui::SameLine();
+    if (ImGui::SmallButton("\u00d7")) viewer.perform("dismiss-notices");
+    tooltip("Esc. All messages of late are under \"Messages\" in the panel");
+  }
+  ImGui::End();
+}
+
 }  // namespace
 
-void buildOverlays(Viewer& viewer, int scene_width, float bottom, const std::string& notice, bool framing) {
+void buildOverlays(Viewer& viewer, int scene_width, float bottom, bool notices, bool framing) {
   const float size = ImGui::GetFontSize();
   const float height = ImGui::GetIO().DisplaySize.y;
   const float middle = static_cast<float>(scene_width) / 2;
@@ -92,8 +125,12 @@ void buildOverlays(Viewer& viewer, int scene_width, float bottom, const std::str
   } else if (state.phase == SessionPhase::kEmpty && !viewer.error()) {
     line("empty", "Drop an OBJ scene here, or Ctrl+O", {middle, height / 2}, {0.5f, 0.5f});
   } else if (state.stopped_by == "no light") {
-    line("dark", "No light: no face of this scene emits any (Ke above 0), nor does a sky",
-         {middle, height / 2}, {0.5f, 0.5f});
+    const char* dark =
+        "No light: no face of this scene emits any (Ke above 0), nor does a sky. The chooser Sky in the "
+        "section "
+        "Scene, or the action sky r,g,b, lights it";
+    line("dark", brokenText(dark, std::min(2 * middle - 3 * size, 30 * size)), {middle, height / 2},
+         {0.5f, 0.5f});
   }
   if (viewer.error()) {
     errorWindow(viewer, middle);
@@ -103,9 +140,11 @@ void buildOverlays(Viewer& viewer, int scene_width, float bottom, const std::str
   buildPrompt(viewer, middle);
   if (viewer.sceneChanged() && !viewer.error() && state.phase != SessionPhase::kLoading)
     changedWindow(viewer, middle);
-  const std::string said = notice.empty() && viewer.ui().hint ? kHint : notice;
-  if (!said.empty())
-    line("notice", brokenText(said, 2 * middle - 3 * size), {middle, bottom - 0.7f * size}, {0.5f, 1});
+  if (!notices) return;
+  std::vector<std::string> lines = viewer.messages().lines();
+  if (lines.empty() && viewer.ui().hint) lines.push_back(kHint);
+  if (!lines.empty())
+    noticeWindow(viewer, lines, {middle, bottom - 0.7f * size}, std::max(2 * middle, 12 * size) - 3 * size);
 }
 
 }  // namespace unshot

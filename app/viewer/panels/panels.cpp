@@ -15,6 +15,7 @@
 #include "viewer/panels/error_panel.h"
 #include "viewer/panels/hemicube_panel.h"
 #include "viewer/panels/materials_panel.h"
+#include "viewer/panels/messages_panel.h"
 #include "viewer/panels/notes_panel.h"
 #include "viewer/panels/picked_panel.h"
 #include "viewer/panels/plan_panel.h"
@@ -57,7 +58,7 @@ void head(Viewer& viewer) {
   const bool paused = state.phase == SessionPhase::kPaused;
   ImGui::BeginDisabled(!viewer.solveGoesOn());
   if (ImGui::Button(paused ? "Resume" : "Pause", {width, 0})) viewer.perform("pause");
-  tooltip("Space");
+  tooltip(paused ? "Space: the solve goes on" : "Space: the solve rests until Resume or Step");
   ImGui::SameLine();
   if (ImGui::Button("Step", {width, 0})) viewer.perform("step", ImGui::GetIO().KeyShift ? "10" : "");
   tooltip("N: the patch chosen next shoots, then the solve pauses. With Shift: ten times");
@@ -126,7 +127,8 @@ void chooseError(Viewer& viewer) {
   static constexpr std::array<Choice, 6> kChoices = {
       {{"0.1", 0.1}, {"0.03", 0.03}, {"0.01", 0.01}, {"0.003", 0.003}, {"0.001", 0.001}, {"0.0001", 0.0001}}};
   label("Stop at",
-        "The solve ends when its error is proven to be below this part of the reflected light; a smaller one "
+        "The solve ends when its error, RMS of B \u2212 B* over RMS of B* \u2212 E [%], is proven to be "
+        "below this; a smaller one "
         "goes on from "
         "there");
   const double error = viewer.ui().options.error;
@@ -152,7 +154,9 @@ void solveSection(Viewer& viewer) {
   if (!mode.empty()) viewer.perform("mode", mode);
   chooseRival(viewer);
   label("Form factors",
-        "What part of a patch's light arrives where. Another method solves again from the start");
+        "G_ij, what part of the light that patch i sends arrives at patch j, between 0 and 1: \u222b\u222b "
+        "cos \u03b8_i cos \u03b8_j V / (\u03c0 r\u00b2) dA_j dA_i / A_i, V what is not occluded. Another "
+        "method solves again from the start");
   const std::string method = choose(
       "##method", formFactorMethods(), options.form_factors,
       shownChoice(formFactorMethods(), options.form_factors, state.facts ? state.facts->form_factors : ""),
@@ -170,7 +174,7 @@ void meshSection(Viewer& viewer) {
   line("Patches, elements", countText(state.facts->patches) + ", " + countText(state.facts->elements),
        "Patches shoot, elements receive; both count lit sides only");
   line("Element size", figureText(state.snapshot->mesh->element_size) + " m",
-       "Edge of a full cell aimed at; cells beside borders, contacts and small lamps are smaller");
+       "Edge of a full cell aimed at [m]; cells beside borders, contacts and small lamps are smaller");
   line("Surfaces", countText(state.facts->surfaces),
        "Polygons of one material in one plane are one surface where they join");
 }
@@ -187,15 +191,18 @@ void figuresSection(Viewer& viewer) {
   line("Shots",
        countText(state.measures.shots) +
            (running ? "  (" + countText(static_cast<std::uint64_t>(rates.shots)) + "/s)" : ""),
-       "How often a patch has shot its unshot radiosity");
+       "How often a patch has shot its unshot radiosity, S += d, H += K d; of the last second beside it, a "
+       "second");
   line("Columns",
        countText(state.measures.rows) +
            (running ? "  (" + countText(static_cast<std::uint64_t>(rates.columns)) + "/s)" : ""),
-       "Columns of form factors computed; the others were kept from before");
+       "Columns of form factors computed, K of all points for one patch; the others were kept from before. "
+       "Of the last second beside it, a second");
   if (state.drawn > 0)
     line("Hemicubes", countText(state.drawn), "Drawn so far: a patch that sees something near takes several");
   line("Unshot light", percentText(state.measures.unshot_fraction),
-       "Light that is emitted or reflected but not yet shot: sum A |U| / sum A E over patches and channels");
+       "Light that is emitted or reflected but not yet shot: \u2211 A |U| / \u2211 A E over patches and "
+       "channels");
   if (state.radius_upper.x < kNoBound) {
     const double low = std::max({state.radius_lower.x, state.radius_lower.y, state.radius_lower.z});
     const double high = std::max({state.radius_upper.x, state.radius_upper.y, state.radius_upper.z});
@@ -206,8 +213,9 @@ void figuresSection(Viewer& viewer) {
   const FormFactorDefects& defects = state.estimates.defects;
   if (defects.closure && defects.reciprocity) {
     line("Closure, reciprocity", percentText(*defects.closure) + ", " + percentText(*defects.reciprocity),
-         "How far the form factors break two laws of exact ones (RMS): all that a patch sends arrives or "
-         "escapes; A F is the same both ways");
+         "How far the form factors break two laws of exact ones (RMS, relative): \u2211_j G_ij = 1, all that "
+         "a "
+         "patch sends arrives or escapes; A_i G_ij = A_j G_ji, the same both ways");
   }
   const std::uint64_t drafts = state.measures.drafts + state.measures.refined;
   if (drafts > 0) {
@@ -219,14 +227,13 @@ void figuresSection(Viewer& viewer) {
   line("Time", durationText(state.measures.seconds) + ", CPU " + durationText(state.measures.cpu_seconds),
        "Of the solve; CPU of the whole program since meshing began");
   line("Form factors kept", memoryText(static_cast<double>(state.kept_bytes)),
-       "Memory of the columns that are kept");
+       "Memory of the columns that are kept [MB]");
   char frame[32];
   std::snprintf(frame, sizeof frame, "%.1f ms", viewer.frameMilliseconds());
-  line("Frame", frame, "To draw the scene and the panels once; a slow renderer does it over several frames");
+  line("Frame", viewer.frameMilliseconds() > 0 ? frame : "not measured yet",
+       "Time to draw the scene and the panels once [ms]; a slow renderer does it over several frames");
   const gl::ContextInfo& gl = viewer.renderer();
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextDisabled("%s, %s", gl.renderer.c_str(), gl.provider.c_str());
-  ImGui::PopTextWrapPos();
+  dimmed(gl.renderer + ", " + gl.provider);
 }
 
 }  // namespace
@@ -234,9 +241,11 @@ void figuresSection(Viewer& viewer) {
 int panelWidth(const ViewerState& ui, double scale, int width) {
   if (!ui.panel) return 0;
   const int wanted = static_cast<int>(std::lround(kPanelWidth * scale));
-  // Beside a cramped panel there would be no scene.
-  return width >= 2 * wanted ? wanted : 0;
+  return width >= leastWindowWithPanel(scale) ? wanted : 0;
 }
+
+// Beside a cramped panel there would be no scene.
+int leastWindowWithPanel(double scale) { return 2 * static_cast<int>(std::lround(kPanelWidth * scale)); }
 
 void buildSidePanel(Viewer& viewer, int left) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
@@ -268,6 +277,7 @@ void buildSidePanel(Viewer& viewer, int left) {
   figuresSection(viewer);
   planSection(viewer);
   notesSection(viewer);
+  messagesSection(viewer);
   ImGui::EndChild();
   ImGui::End();
 }

@@ -10,10 +10,14 @@ namespace unshot {
 /// small for it.
 int panelWidth(const ViewerState& ui, double scale, int width);
 
+/// How wide a window has to be for it [px].
+int leastWindowWithPanel(double scale);
+
 /// The panel at the right edge, from x = `left` on; nothing where that is the edge itself.
 void buildSidePanel(Viewer& viewer, int left);
 
 /// Messages, help and what is being loaded, over the scene's `scene_width` pixels, down to y = `bottom`.
-void buildOverlays(Viewer& viewer, int scene_width, float bottom, const std::string& notice, bool framing);
+/// Without `notices` the lines are left out that tell of files written and the like: of no use in a picture.
+void buildOverlays(Viewer& viewer, int scene_width, float bottom, bool notices, bool framing);
 
 }  // namespace unshot

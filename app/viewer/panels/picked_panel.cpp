@@ -84,7 +84,11 @@ void cells(const PickedPoint& point, const Mesh& mesh) {
 
 void decisions(const PickedPoint& point) {
   if (point.decisions.empty()) {
+    ImGui::BeginGroup();
     paragraph("Plan", "Nothing is left out here.");
+    ImGui::EndGroup();
+    tooltip(
+        "What the solve does not compute for this surface, as the result is the same without it: nothing");
     return;
   }
   for (std::size_t k = 0; k < point.decisions.size(); ++k) {
@@ -93,7 +97,8 @@ void decisions(const PickedPoint& point) {
     paragraph(k == 0 ? "Plan" : "", decision.text);
     ImGui::EndGroup();
     const PlanRow& row = findChoice(planRows(), decision.key, "decision of the plan");
-    tooltip(std::string(row.info.title) + "; " + std::string(row.sure) + ". More under \"Left out\"");
+    tooltip("What the solve does not compute for this surface, as the result is the same without it: " +
+            std::string(row.info.title) + "; " + std::string(row.sure) + ". More under \"Left out\"");
   }
 }
 
@@ -180,7 +185,8 @@ void pickedSection(Viewer& viewer) {
        "corners of its polygons run counter-clockwise");
   line("In the file", "line " + std::to_string((*viewer.state().facts->surface_lines)[point.pick.surface]),
        "Where the scene's file has one of the surface's polygons");
-  line("Position", positionText(point.probe.position), "In the coordinates of the scene's file");
+  line("Position", positionText(point.probe.position),
+       "x, y and z in the coordinates of the scene's file [m]");
   cells(point, *snapshot.mesh);
   values(point, snapshot);
   decisions(point);

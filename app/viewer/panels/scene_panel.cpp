@@ -79,7 +79,7 @@ void sceneSection(Viewer& viewer) {
        "Of the file's faces; those without area are left out");
   line("Materials", countText(mesh.materials.size()), "Of the MTL files");
   line("Extent", extentText(mesh.bounds_max - mesh.bounds_min) + " m",
-       "Along x, y and z; OBJ files are in metres");
+       "Along x, y and z [m]; OBJ files are in metres");
   chooseSky(viewer);
 }
 

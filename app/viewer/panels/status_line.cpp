@@ -9,7 +9,9 @@
 #include "base/text.h"
 #include "solver/modes.h"
 #include "viewer/panels/error_panel.h"
+#include "viewer/panels/panels.h"
 #include "viewer/panels/widgets.h"
+#include "viewer/teaching.h"
 
 namespace unshot {
 namespace {
@@ -46,15 +48,16 @@ std::array<Part, 6> partsOf(const Viewer& viewer) {
   const std::string nothing;
   return {{
       {solving ? "unshot " + percentText(state.measures.unshot_fraction) : nothing, "unshot 0.0012 %",
-       "Light that is emitted or reflected but not yet shot: sum A |U| / sum A E over patches and channels"},
+       "Light that is emitted or reflected but not yet shot: \u2211 A |U| / \u2211 A E over patches and "
+       "channels"},
       {solving ? knownError(state) : nothing, "error about 0.0012 %",
        "How wrong the reflected light still is (RMS error over RMS light); \"below\" is a proven bound of "
        "the solver's error, \"about\" an estimate of all of it, \"up to\" the upper end of one that noise "
        "hides"},
       {running ? countText(rows) + " rows/s" : nothing, "00,000 rows/s",
-       "Columns and rows of form factors computed a second"},
+       "Columns and rows of the form factors K computed a second, those kept from before not counted [1/s]"},
       {frameText(viewer.frameMilliseconds()), "000.0 ms",
-       "To draw the scene and the panels once; a slow renderer does it over several frames"},
+       "Time to draw the scene and the panels once [ms]; a slow renderer does it over several frames"},
       {solving ? modeText(state) : nothing, "Progressive refinement",
        "Iteration mode: how it is chosen what is shot next"},
       {viewer.renderer().renderer, "", "What draws the picture"},
@@ -86,11 +89,41 @@ PhaseLook phaseLook(const SessionState& state) {
   return {"Failed", {0.95f, 0.4f, 0.35f, 1}};
 }
 
+namespace {
+
+/// That the panel has no room, and what gives it some, as much of it as is no wider than this; empty where
+/// the panel is there.
+std::string missingPanel(const Viewer& viewer, float room) {
+  const int window = static_cast<int>(ImGui::GetIO().DisplaySize.x);
+  if (viewer.teaching().choices.lecture || panelWidth(viewer.ui(), viewer.scale(), window) > 0) return {};
+  const std::string wider =
+      countText(static_cast<std::uint64_t>(leastWindowWithPanel(viewer.scale()))) + " px";
+  for (const std::string& text :
+       {"no room for the panel: a window of " + wider + " of width or a smaller scale (action scale) has it",
+        "no room for the panel: " + wider + " or a smaller scale",
+        "no panel: " + wider + " or smaller scale"}) {
+    if (ImGui::CalcTextSize(text.c_str()).x <= room) return text;
+  }
+  return shortened("no panel: smaller scale", room);
+}
+
+void missingPanelTip(const Viewer& viewer) {
+  tooltip("The panel takes " + countText(static_cast<std::uint64_t>(leastWindowWithPanel(viewer.scale()))) +
+          " px of window at this scale: make the window wider (action size), or panels and text smaller "
+          "(Ctrl+P, action scale 1)");
+}
+
+}  // namespace
+
 float buildStatusLine(Viewer& viewer, int scene_width) {
   if (!viewer.ui().panel || !viewer.ui().status) return 0;
   const float em = ImGui::GetFontSize(), height = std::round(kHeight * em);
   const float phase = 0.7f * em + 0.8f * em + ImGui::CalcTextSize(kWidestPhase).x;
-  if (static_cast<float>(scene_width) < phase + 0.7f * em) return 0;
+  const bool cramped = static_cast<float>(scene_width) < phase + 0.7f * em;
+  const PhaseLook look = phaseLook(viewer.state());
+  const float shown = cramped ? 0 : (0.8f + kGap) * em + ImGui::CalcTextSize(look.text).x;
+  const std::string no_panel = missingPanel(viewer, static_cast<float>(scene_width) - 1.5f * em - shown);
+  if (cramped && no_panel.empty()) return 0;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0, window.y - height});
   ImGui::SetNextWindowSize({static_cast<float>(scene_width), height});
@@ -103,12 +136,19 @@ float buildStatusLine(Viewer& viewer, int scene_width) {
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoBringToFrontOnFocus |
                    ImGuiWindowFlags_NoScrollWithMouse);
-  const PhaseLook look = phaseLook(viewer.state());
   const float end = static_cast<float>(scene_width) - 0.7f * em;
-  dot(look.colour);
-  ImGui::TextUnformatted(look.text);
-  tooltip("What the solve is doing. Tab hides this line with the panel");
+  if (!cramped) {
+    dot(look.colour);
+    ImGui::TextUnformatted(look.text);
+    tooltip("What the solve is doing. Tab hides this line with the panel");
+  }
   float at = phase + kGap * em;
+  if (!no_panel.empty()) {
+    if (!cramped) ImGui::SameLine(0, kGap * em);
+    ImGui::TextUnformatted(no_panel.c_str());
+    missingPanelTip(viewer);
+    at = end;
+  }
   for (const Part& part : partsOf(viewer)) {
     const float width =
         std::max(ImGui::CalcTextSize(part.widest).x, ImGui::CalcTextSize(part.text.c_str()).x);

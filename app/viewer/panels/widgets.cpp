@@ -14,9 +14,9 @@ bool section(const char* title) { return ImGui::CollapsingHeader(title, ImGuiTre
 void tooltip(std::string_view text) {
   if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(20 * ImGui::GetFontSize());
-  ImGui::TextUnformatted(text.data(), text.data() + text.size());
-  ImGui::PopTextWrapPos();
+  // No wider than the window has room for.
+  const float room = ImGui::GetIO().DisplaySize.x - 2 * ImGui::GetStyle().WindowPadding.x - 4;
+  wrapped(std::string(text), std::min(20 * ImGui::GetFontSize(), room));
   ImGui::EndTooltip();
 }
 
@@ -70,16 +70,16 @@ void rightAligned(const std::string& text, bool dim) {
   }
 }
 
-void wrapped(const std::string& text) {
-  const std::string lines = brokenText(text, ImGui::GetContentRegionAvail().x);
-  ImGui::PushTextWrapPos(0);  // for words that are wider
+void wrapped(const std::string& text, float width) {
+  const std::string lines = brokenText(text, width > 0 ? width : ImGui::GetContentRegionAvail().x);
+  ImGui::PushTextWrapPos(width > 0 ? ImGui::GetCursorPosX() + width + 1 : 0);  // for words that are wider
   ImGui::TextUnformatted(lines.c_str());
   ImGui::PopTextWrapPos();
 }
 
-void dimmed(const std::string& text) {
+void dimmed(const std::string& text, float width) {
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  wrapped(text);
+  wrapped(text, width);
   ImGui::PopStyleColor();
 }
 

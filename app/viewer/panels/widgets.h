@@ -31,9 +31,9 @@ float channelWidth();
 /// Text at the right end of the room there is, such as a cell of a table.
 void rightAligned(const std::string& text, bool dim = false);
 
-/// Text over as many lines as it takes.
-void wrapped(const std::string& text);
-void dimmed(const std::string& text);
+/// Text over as many lines as it takes; `width` [px] is that of the room there is where it is 0.
+void wrapped(const std::string& text, float width = 0);
+void dimmed(const std::string& text, float width = 0);
 
 /// A name on the left, and beside it text over as many lines as it takes.
 void paragraph(const char* name, std::string_view text);
