@@ -107,13 +107,13 @@ void ReferencePicture::allocate(Picture& picture, int width, int height) {
   picture.height = height;
 }
 
-void ReferencePicture::takeOurs(const SceneArea& scene, int width, int height) {
+void ReferencePicture::takeOurs(const CopyScene& scene, int width, int height) {
   const gl::Functions& fn = context_.functions();
   allocate(ours_, width, height);
   fn.BindFramebuffer(GL_FRAMEBUFFER, ours_.framebuffer.id());
   fn.ClearColor(0, 0, 0, 1);
   fn.Clear(GL_COLOR_BUFFER_BIT);
-  scene.copyTo(width);
+  scene(width);
 }
 
 void ReferencePicture::compose(GLuint framebuffer, const Look& look, double wipe, bool difference) {
@@ -147,7 +147,7 @@ void ReferencePicture::compose(GLuint framebuffer, const Look& look, double wipe
   fn.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void ReferencePicture::draw(const SceneArea& scene, GLuint framebuffer, int width, int height,
+void ReferencePicture::draw(const CopyScene& scene, GLuint framebuffer, int width, int height,
                             const Look& look) {
   if (width <= 0 || height <= 0 || !comparable(look.view)) return;
   const StateGuard guard(context_.functions());
@@ -162,7 +162,7 @@ void ReferencePicture::measure(const SceneArea& scene, int width, int height, co
   measured_ = now;
   const gl::Functions& fn = context_.functions();
   const StateGuard guard(fn);
-  takeOurs(scene, width, height);
+  takeOurs([&](int columns) { scene.copyTo(columns); }, width, height);
   allocate(theirs_, width, height);
   compose(theirs_.framebuffer.id(), look, 0, false);
   error_ = relativeError(pixelsOf(fn, ours_.framebuffer, width, height),

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -37,8 +38,10 @@ class ReferencePicture {
   /// measure() saw; none before, or where no pixel is in both.
   const std::optional<double>& error() const { return error_; }
 
+  /// Copies the scene's picture to the lower left of the bound draw framebuffer, into so many columns.
+  using CopyScene = std::function<void(int width)>;
   /// Draws both over the lower left of `framebuffer`, where the scene's picture is `width` x `height`.
-  void draw(const SceneArea& scene, GLuint framebuffer, int width, int height, const Look& look);
+  void draw(const CopyScene& scene, GLuint framebuffer, int width, int height, const Look& look);
   /// Finds error(), where the picture is another than before.
   void measure(const SceneArea& scene, int width, int height, const Look& look);
 
@@ -50,7 +53,7 @@ class ReferencePicture {
   };
   void allocate(Picture& picture, int width, int height);
   void compose(GLuint framebuffer, const Look& look, double wipe, bool difference);
-  void takeOurs(const SceneArea& scene, int width, int height);
+  void takeOurs(const CopyScene& scene, int width, int height);
 
   gl::Context& context_;
   std::string name_;

@@ -48,6 +48,11 @@ class SceneArea {
   Camera cameraOf(const Wanted& wanted) const { return firstOf(wanted).camera; }
   void sharpen(int samples, double deadline);
   bool sharp() const { return first_.sharp() && (!second_ || second_->sharp()); }
+  void beginFiner(int samples);
+  bool continueFiner(double deadline);
+  double finerDone() const;
+  void copyFinerTo(int width) const;
+  void endFiner();
   std::uint64_t version() const;
   /// Copies the pictures to the lower left of the bound draw framebuffer, into `width` columns of pixels.
   void copyTo(int width) const;

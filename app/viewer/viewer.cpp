@@ -36,6 +36,7 @@ Viewer::Viewer(ViewerSetup setup)
     : setup_(std::move(setup)),
       gui_(*setup_.display),
       scene_(*setup_.display),
+      screenshots_(*setup_.display, gui_, setup_.session.wake),
       session_(setup_.session),
       state_(session_.latest()),
       memory_(setup_.memory),
@@ -78,10 +79,12 @@ void Viewer::update(double now) {
   if (setup_.interrupted && setup_.interrupted()) {
     exit_code_ = kExitInterrupted;
     closing_ = true;
+    screenshots_.drop();
   }
   takeState(now);
   followTeaching();
   runScript(now);
+  followScreenshots(now);
   if (watch_.look(now)) input();
   followHint(now);
   keepMovedCamera(now);
@@ -194,8 +197,8 @@ void Viewer::dismiss() {
     ui_.prompt.close();
   } else if (ui_.help) {
     ui_.help = false;
-  } else if (state_->phase == SessionPhase::kLoading) {
-    giveUpLoading();
+  } else if (giveUp()) {
+    return;
   } else if (sceneChanged()) {
     keepScene();
   } else {
@@ -308,7 +311,7 @@ void Viewer::loadReference(const std::filesystem::path& ply) {
 void Viewer::forget() { ui_.settings.view.reference.reset(); }
 
 void Viewer::loadReferencePicture(const std::filesystem::path& file) {
-  reference_picture_ = std::make_unique<ReferencePicture>(*setup_.display, file);
+  reference_picture_ = std::make_shared<ReferencePicture>(*setup_.display, file);
   notice("compared with " + reference_picture_->name());
 }
 
@@ -342,6 +345,7 @@ void Viewer::finish() {
 }
 
 Error Viewer::rescue(const Error& error) {
+  screenshots_.drop();
   const bool lost = setup_.session.kept.path.empty() && state_->facts && state_->measures.shots > 0;
   const std::filesystem::path path = lost ? newFileName(".unshot") : std::filesystem::path();
   const std::uint64_t saves = state_->saves;
