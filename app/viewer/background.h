@@ -3,13 +3,17 @@
 
 #include <atomic>
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <future>
+#include <memory>
 #include <optional>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "base/cancel.h"
+#include "base/clock.h"
 
 namespace unshot {
 
@@ -58,6 +62,41 @@ class Background {
   std::promise<Result> promise_;
   std::future<Result> result_;
   std::thread thread_;
+};
+
+/// A file that is read beside the window; another one takes its place.
+template <class Result>
+class FileLoad {
+ public:
+  /// Begins; what is under way is given up.
+  void begin(std::filesystem::path file, typename Background<Result>::Work work, std::function<void()> wake) {
+    giveUp();
+    file_ = std::move(file);
+    began_ = wallSeconds();
+    job_ = std::make_unique<Background<Result>>(std::move(work), std::move(wake));
+  }
+  bool underWay() const { return job_ != nullptr; }
+  /// Does not wait for its end.
+  void giveUp() {
+    std::erase_if(given_up_, [](const auto& job) { return job->ready(); });
+    if (!job_) return;
+    job_->giveUp();
+    given_up_.push_back(std::move(job_));
+  }
+  /// The result, once; none where there is none yet. Throws what the work has thrown.
+  std::optional<Result> take() {
+    if (!job_ || !job_->ready()) return std::nullopt;
+    return std::exchange(job_, nullptr)->take();
+  }
+  const std::filesystem::path& file() const { return file_; }
+  double began() const { return began_; }
+  std::optional<double> done() const { return job_ ? job_->done() : std::nullopt; }
+
+ private:
+  std::filesystem::path file_;
+  double began_ = 0;
+  std::unique_ptr<Background<Result>> job_;
+  std::vector<std::unique_ptr<Background<Result>>> given_up_;  // that have not noticed yet
 };
 
 }  // namespace unshot

@@ -52,7 +52,9 @@ void Viewer::followScreenshots(double now) {
 /// Whether the window shows what the first of them is to be of.
 bool Viewer::screenshotStands() const {
   if (!screenshots_.posing() || !screenshots_.panelsStand()) return false;
-  return !sceneStands() || (screenshots_.lit() && !scene_.outdated(wanted()) && !scene_.gliding());
+  const SceneSplit split = splitScene(scene_width_, scene_.racing());
+  const bool no_room = split.left <= 0 || (scene_.racing() && split.right <= 0) || scene_height_ <= 0;
+  return !sceneStands() || no_room || (screenshots_.lit() && !scene_.outdated(wanted()) && !scene_.gliding());
 }
 
 void Viewer::keepScreenshot(int width, int height) {

@@ -41,11 +41,13 @@ double Viewer::nextFrame(double now) const {
 
 /// When the window itself waits for a frame.
 double Viewer::nextPaint() const {
-  if (gui_frames_ == 0 && !screenshots_.posing() && !navigator_.moving())
-    return screenshots_.empty() ? kNever : last_frame_ + kProgressSeconds;
+  const bool poses = screenshots_.posing() && (!screenshots_.panelsStand() || screenshotStands());
+  if (gui_frames_ == 0 && !poses && !navigator_.moving())
+    return waitsForFiles() || scene_.framing() ? last_frame_ + kProgressSeconds : kNever;
   const double soon = last_frame_ + kFrameSeconds;
+  const bool unlit = screenshots_.posing() && !screenshots_.lit();
   const bool making =
-      scene_.framing() || screenshots_.drawing() || (sceneStands() && scene_.outdated(wanted()));
+      scene_.framing() || screenshots_.drawing() || unlit || (sceneStands() && scene_.outdated(wanted()));
   return making && !renderer().hardware ? std::max(soon, last_frame_end_ + kSceneSeconds) : soon;
 }
 
@@ -205,6 +207,7 @@ bool Viewer::draw(GLuint framebuffer, int width, int height) {
   // The next frame measures what this one shows.
   if (changed && referencePicture()) gui_frames_ = std::max(gui_frames_, 1);
   gl::checkErrors(setup_.display->functions(), "drawing a frame of the viewer");
+  if (!changed) last_frame_end_ = wallSeconds();
   return changed;
 }
 

@@ -56,15 +56,23 @@ std::optional<double> relativeError(const std::vector<std::uint8_t>& ours,
 
 }  // namespace
 
-ReferencePicture::ReferencePicture(gl::Context& context, const std::filesystem::path& file)
+ReferencePicture::Content ReferencePicture::read(const std::filesystem::path& file,
+                                                 const CancelToken& cancel) {
+  const bool light = holdsLight(file);
+  cancel.check();
+  const ImageF image = readImage(file);
+  cancel.check();
+  return {file, light, image.width, image.height, upwards(image)};
+}
+
+ReferencePicture::ReferencePicture(gl::Context& context, const Content& image)
     : context_(context),
-      name_(file.filename().string()),
-      light_(holdsLight(file)),
+      name_(image.file.filename().string()),
+      light_(image.light),
       no_attributes_(context),
       reference_(context),
       ours_{gl::Texture(context), gl::Framebuffer(context)},
       theirs_{gl::Texture(context), gl::Framebuffer(context)} {
-  const ImageF image = readImage(file);
   const gl::Functions& fn = context.functions();
   GLint largest = 0;
   fn.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
@@ -72,13 +80,13 @@ ReferencePicture::ReferencePicture(gl::Context& context, const std::filesystem::
     throw Error(ErrorKind::kEnvironment,
                 "the picture has " + std::to_string(image.width) + " x " + std::to_string(image.height) +
                     " pixels; this OpenGL driver takes " + std::to_string(largest) + " at most along a side",
-                file.string(), "a smaller picture");
+                image.file.string(), "a smaller picture");
   }
   aspect_ = static_cast<double>(image.width) / image.height;
   fn.BindTexture(GL_TEXTURE_2D, reference_.id());
   fn.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
   fn.TexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, image.width, image.height, 0, GL_RGB, GL_FLOAT,
-                upwards(image).data());
+                image.rgb.data());
   fn.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   fn.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   fn.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);

@@ -11,7 +11,9 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "base/cancel.h"
 #include "gl/objects.h"
 #include "viewer/scene_area.h"
 
@@ -20,8 +22,17 @@ namespace unshot {
 /// All calls on the thread where the context is current.
 class ReferencePicture {
  public:
-  /// Throws Error (kInput) where the file is no picture, kEnvironment where it is too large for the driver.
-  ReferencePicture(gl::Context& context, const std::filesystem::path& file);
+  /// What its file holds.
+  struct Content {
+    std::filesystem::path file;
+    bool light = false;  ///< linear light, to be exposed
+    int width = 0, height = 0;
+    std::vector<float> rgb;  ///< lowest row first
+  };
+  /// Any thread. Throws Error (kInput) where the file is no picture, Cancelled.
+  static Content read(const std::filesystem::path& file, const CancelToken& cancel = {});
+  /// Throws Error (kEnvironment) where it is too large for the driver.
+  ReferencePicture(gl::Context& context, const Content& content);
 
   /// How the scene's picture is shown, and where the line is: 0 left, 1 right.
   struct Look {

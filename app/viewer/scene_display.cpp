@@ -51,6 +51,8 @@ void SceneDisplay::setSnapshot(std::shared_ptr<const Snapshot> snapshot) {
 
 void SceneDisplay::startFraming(double aspect) {
   framing_.reset();
+  framing_began_ = wallSeconds();
+  framing_hurries_ = false;
   AutomaticCameraOptions options;
   options.aspect = aspect;
   if (snapshot_) framing_.emplace(context_, snapshot_, options);
@@ -59,7 +61,7 @@ void SceneDisplay::startFraming(double aspect) {
 std::optional<Camera> SceneDisplay::continueFraming(std::optional<double> seconds) {
   if (!framing_) return std::nullopt;
   const double end = wallSeconds() + seconds.value_or(0);
-  while (framing_->step()) {
+  while (!framing_hurries_ && framing_->step()) {
     if (seconds && wallSeconds() >= end) return std::nullopt;
   }
   const Camera found = framing_->best();

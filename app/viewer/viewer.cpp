@@ -84,6 +84,7 @@ void Viewer::update(double now) {
   takeState(now);
   followTeaching();
   runScript(now);
+  followLoads();
   followScreenshots(now);
   if (watch_.look(now)) input();
   followHint(now);
@@ -97,6 +98,8 @@ void Viewer::update(double now) {
 void Viewer::takeState(double now) {
   const std::shared_ptr<const SessionState> latest = session_.latest();
   if (latest->version == state_->version) return;
+  if (latest->task_done != state_->task_done || latest->gathering != state_->gathering)
+    gui_frames_ = std::max(gui_frames_, 1);
   const bool news = latest->phase != state_->phase || latest->problems != state_->problems;
   const bool another = latest->epoch != state_->epoch;
   const std::shared_ptr<const SessionState> before = std::exchange(state_, latest);
@@ -222,7 +225,6 @@ void Viewer::giveUpLoading() {
   if (state_->phase != SessionPhase::kLoading) return;
   session_.giveUpLoading();
   if (state_->facts) ui_.options = state_->facts->options;  // the panel shows what stays
-  notice("given up: " + state_->task);
 }
 
 void Viewer::restart() {
@@ -301,18 +303,6 @@ void Viewer::race(const std::optional<std::string>& key) {
 void Viewer::remember() {
   ui_.settings.view.reference = rememberedLight(*state_, ui_.settings.view.light);
   notice("remembered: " + ui_.settings.view.reference->name);
-}
-
-void Viewer::loadReference(const std::filesystem::path& ply) {
-  ui_.settings.view.reference = loadedLight(*state_, ply);
-  notice("compared with " + ui_.settings.view.reference->name);
-}
-
-void Viewer::forget() { ui_.settings.view.reference.reset(); }
-
-void Viewer::loadReferencePicture(const std::filesystem::path& file) {
-  reference_picture_ = std::make_shared<ReferencePicture>(*setup_.display, file);
-  notice("compared with " + reference_picture_->name());
 }
 
 // Light of another mesh is no reference; bounces that were chosen are wanted of the new solve too.

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "session/session.h"
+#include "viewer/background.h"
 #include "viewer/camera_views.h"
 #include "viewer/gui_renderer.h"
 #include "viewer/material_edits.h"
@@ -134,7 +135,7 @@ class Viewer {
   /// finish() where the window cannot go on, such as after a reset of the driver: saves a solve that is not
   /// kept anyway. Returns the error with the way on.
   Error rescue(const Error& error);
-  bool scriptDone() const { return script_at_ >= script_.size() && screenshots_.empty() && !pick_wanted_; }
+  bool scriptDone() const { return script_at_ >= script_.size() && !waitsForFiles() && !pick_wanted_; }
   /// 0, or the exit code of the first thing that failed in the script, or of why there is no scene.
   int exitCode() const { return exit_code_; }
 
@@ -206,9 +207,9 @@ class Viewer {
   void remember();
   void loadReference(const std::filesystem::path& ply);
   void forget();
-  /// A picture over that of the scene (reference_picture.h).
+  /// A picture over that of the scene (reference_picture.h). Both are read beside the window.
   void loadReferencePicture(const std::filesystem::path& file);
-  void forgetReferencePicture() { reference_picture_.reset(); }
+  void forgetReferencePicture();
   /// Null where there is none, or where the display mode shows nothing to compare with it.
   const ReferencePicture* referencePicture() const;
   /// Finds the automatic camera again.
@@ -257,6 +258,7 @@ class Viewer {
   void browse(const std::filesystem::path& folder);
   /// What takes its time, of what is under way.
   std::vector<Task> tasks();
+  void giveUp(const Task& task);
   /// Gives up the first of them; whether there is one.
   bool giveUp();
   /// Closes what lies over the scene: the message, else the help, else gives up a task or what is picked.
@@ -325,6 +327,11 @@ class Viewer {
   void rememberPanel();
   ReferencePicture::Look referenceLook() const;
   void measureReference(double now);
+  void followLoads();
+  /// Whether some are read or written that were asked for.
+  bool waitsForFiles() const {
+    return !screenshots_.empty() || reference_load_.underWay() || picture_load_.underWay();
+  }
   bool drawScene(double now, double deadline);
   void paint(GLuint framebuffer, int width, int height);
   void followScreenshots(double now);
@@ -383,6 +390,8 @@ class Viewer {
   };
   std::optional<ZoomTarget> zoom_target_;
   std::shared_ptr<ReferencePicture> reference_picture_;
+  FileLoad<ReferencePicture::Content> picture_load_;
+  FileLoad<std::shared_ptr<const ReferenceLight>> reference_load_;
   double last_measured_ = 0;  // reference_picture_
   std::unique_ptr<Teaching> teaching_;
 

@@ -26,10 +26,14 @@ class DisplayMaker {
 
   void run() {
     findPoints();
+    cancel_.report(0.2);
     makeRings();
+    cancel_.report(0.4);
     const std::vector<PieceEdge> edges = pieceEdges();
     joinAir(mesh_, edges, points_, cancel_);
+    cancel_.report(0.6);
     joinCorners(edges);
+    cancel_.report(0.8);
     numberVertices();
     makeTriangles();
     makeWeights();

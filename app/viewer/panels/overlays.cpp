@@ -54,7 +54,7 @@ bool tasksWindow(Viewer& viewer, float middle) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(shortened(task.text + " \u2026", 1.2f * middle).c_str());
     ImGui::SameLine();
-    if (ImGui::Button("Give up")) task.giveUp();
+    if (ImGui::Button("Give up")) viewer.giveUp(task);
     tooltip((k == 0 ? "Esc: " : "") + std::string(task.given_up));
     if (task.done) ImGui::ProgressBar(static_cast<float>(*task.done), {-1, 0.4f * ImGui::GetFontSize()}, "");
     ImGui::PopID();
