@@ -43,7 +43,7 @@ double Viewer::nextFrame(double now) const {
 double Viewer::nextPaint() const {
   const bool poses = screenshots_.posing() && (!screenshots_.panelsStand() || screenshotStands());
   if (gui_frames_ == 0 && !poses && !navigator_.moving())
-    return waitsForFiles() || scene_.framing() ? last_frame_ + kProgressSeconds : kNever;
+    return waitsForFiles() || scene_.framing() || state_->saving ? last_frame_ + kProgressSeconds : kNever;
   const double soon = last_frame_ + kFrameSeconds;
   const bool unlit = screenshots_.posing() && !screenshots_.lit();
   const bool making =

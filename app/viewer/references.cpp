@@ -4,8 +4,9 @@
 
 namespace unshot {
 
-void Viewer::loadReference(const std::filesystem::path& ply) {
+void Viewer::loadReference(const std::filesystem::path& file) {
   requiredMesh();
+  const std::filesystem::path ply = file;  // it may be that of the load before
   reference_load_.begin(
       ply,
       [ply, snapshot = state_->snapshot](const CancelToken& cancel) {
@@ -34,9 +35,8 @@ void Viewer::forgetReferencePicture() {
 void Viewer::followLoads() {
   try {
     if (auto light = reference_load_.take()) {
-      if ((*light)->mesh->cut != requiredMesh().cut)
-        throw Error(ErrorKind::kUsage, "the scene is another by now than when this was asked for",
-                    reference_load_.file().string(), "asking for it again");
+      // Where the mesh is another by now, it is wanted of that one.
+      if ((*light)->mesh->cut != requiredMesh().cut) return loadReference(reference_load_.file());
       ui_.settings.view.reference = *light;
       notice("compared with " + (*light)->name);
     }

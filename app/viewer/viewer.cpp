@@ -99,7 +99,7 @@ void Viewer::takeState(double now) {
   const std::shared_ptr<const SessionState> latest = session_.latest();
   if (latest->version == state_->version) return;
   if (latest->task_done != state_->task_done || latest->gathering != state_->gathering)
-    gui_frames_ = std::max(gui_frames_, 1);
+    gui_frames_ = std::max(gui_frames_, 2);  // its window takes its size in the second
   const bool news = latest->phase != state_->phase || latest->problems != state_->problems;
   const bool another = latest->epoch != state_->epoch;
   const std::shared_ptr<const SessionState> before = std::exchange(state_, latest);

@@ -147,6 +147,8 @@ class Viewer {
   const ViewerState& ui() const { return ui_; }
   const DisplaySettings& settings() const { return ui_.settings; }
   const SessionState& state() const { return *state_; }
+  /// Whether it holds what was asked for so far.
+  bool upToDate() const { return session_.sent() == state_->commands; }
   const gl::ContextInfo& renderer() const { return setup_.display->info(); }
   const std::vector<std::filesystem::path>& bundledScenes() const { return setup_.bundled; }
   const Camera& camera() const { return navigator_.camera(); }
@@ -205,7 +207,7 @@ class Viewer {
   void race(const std::optional<std::string>& key);
   /// What the display mode `difference` compares with: what is shown now; a solution in a file; direct light.
   void remember();
-  void loadReference(const std::filesystem::path& ply);
+  void loadReference(const std::filesystem::path& file);
   void forget();
   /// A picture over that of the scene (reference_picture.h). Both are read beside the window.
   void loadReferencePicture(const std::filesystem::path& file);

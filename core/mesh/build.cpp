@@ -302,7 +302,7 @@ SurfacesOfScene findSurfaces(const Scene& scene, const MeshOptions& options, con
   mesh.materials = scene.materials;
   // Shares of the time that a large scene takes.
   SurfaceTopology topology = makeSurfaces(scene, weld(scene, cancel.part(0, 0.2)), options.join_polygons,
-                                          mesh, cancel.part(0.2, 0.4));
+                                          mesh, cancel.part(0.2, 0.35));
   mesh.smooth_pairs = std::move(topology.smooth_pairs);
   out.edges = std::move(topology.edges);
   if (mesh.surfaces.empty()) {
@@ -311,12 +311,12 @@ SurfacesOfScene findSurfaces(const Scene& scene, const MeshOptions& options, con
   }
   sayExtremeSize(mesh, scene);
   mesh.weld_distance = weldDistance(scene);
-  out.crossings = findCrossings(mesh, 2 * mesh.weld_distance, cancel.part(0.4, 0.7));
+  out.crossings = findCrossings(mesh, 2 * mesh.weld_distance, cancel.part(0.35, 0.45));
   const double plan_began = wallSeconds();
-  makeSides(options, sidesToKeep(options, out.edges, out.crossings, mesh, cancel.part(0.7, 0.9)), mesh);
+  makeSides(options, sidesToKeep(options, out.edges, out.crossings, mesh, cancel.part(0.45, 0.95)), mesh);
   out.plan_seconds = wallSeconds() - plan_began;
   putLitTrianglesFirst(mesh);
-  findBetween(options.sky, mesh, cancel.part(0.9, 1));
+  findBetween(options.sky, mesh, cancel.part(0.95, 1));
   return out;
 }
 
@@ -330,14 +330,14 @@ Mesh meshSurfaces(SurfacesOfScene surfaces, const MeshOptions& options, const Ca
       findContacts(mesh, surfaces.edges, surfaces.crossings, 2 * tolerance, size, cancel.part(0, 0.1));
   if (options.elements) {
     gridForCount(mesh, static_cast<double>(*options.elements), options.paired_cells, contacts, tolerance,
-                 cancel.part(0.1, 0.5));
+                 cancel.part(0.1, 0.4));
   } else if (!mesh.sides.empty()) {
     std::vector<double> sizes(mesh.surfaces.size(), size);
     if (!options.element_size) refineNearEmitters(mesh, sizes, cancel);
-    gridAll(mesh, sizes, options.paired_cells, contacts, tolerance, cancel.part(0.1, 0.5));
+    gridAll(mesh, sizes, options.paired_cells, contacts, tolerance, cancel.part(0.1, 0.4));
   }
   numberElements(mesh, cancel);
-  makeDisplay(mesh, cancel.part(0.5, 1));
+  makeDisplay(mesh, cancel.part(0.4, 1));
   return mesh;
 }
 

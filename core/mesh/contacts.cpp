@@ -185,6 +185,7 @@ std::vector<Touch> edgesNear(const Mesh& mesh, const std::vector<SurfaceEdge>& e
   std::vector<Touch> out;
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
     cancel.check();
+    if (s % kTold == 0) cancel.report(static_cast<double>(s) / static_cast<double>(mesh.surfaces.size()));
     const Surface& surface = mesh.surfaces[s];
     if (!counts(surface)) continue;
     const double reach = reachOf(surface);

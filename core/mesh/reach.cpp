@@ -151,11 +151,11 @@ std::vector<char> findReach(const Mesh& mesh, const std::vector<SurfaceEdge>& ed
                             double weld_distance, const CancelToken& cancel) {
   std::vector<char> everywhere(2 * mesh.surfaces.size(), 1);
   if (std::find(emits.begin(), emits.end(), 1) == emits.end()) return everywhere;
-  const std::vector<Touch> touches = findTouches(mesh, edges, 2 * kOff * weld_distance, cancel);
+  const std::vector<Touch> touches = findTouches(mesh, edges, 2 * kOff * weld_distance, cancel.part(0, 0.9));
   Shells shells(mesh, edges, crossings, touches, weld_distance, cancel);
   if (!shells.separate()) return everywhere;
   Reach reach(mesh, edges, touches, shells, weld_distance);
-  if (!reach.findLight(emits, cancel)) return everywhere;
+  if (!reach.findLight(emits, cancel.part(0.9, 1))) return everywhere;
   reach.lightMixed();
   return reach.take();
 }

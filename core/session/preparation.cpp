@@ -33,7 +33,7 @@ constexpr double kMostLooks = 6e7;
 constexpr std::size_t kMostTriangles = 50'000;
 // Shares of the time from a large scene to the first shot: surfaces and their meshes found, the scene
 // checked.
-constexpr double kSurfacesShare = 0.4, kMeshShare = 0.8, kChecksShare = 0.9;
+constexpr double kSurfacesShare = 0.45, kMeshShare = 0.9, kChecksShare = 0.95;
 // Light straight from emitters, on a coarse mesh: its vertices cost little there.
 constexpr double kFinerLight = 0.1;
 
