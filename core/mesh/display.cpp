@@ -63,7 +63,7 @@ class DisplayMaker {
         }
       }
     }
-    const std::vector<std::uint32_t> representative = mergePoints(all, distance_, cancel_);
+    const std::vector<std::uint32_t> representative = mergePoints(all, distance_, cancel_.part(0, 0.2));
     corner_point_.resize(all.size());
     for (std::uint32_t k = 0; k < all.size(); ++k) {
       if (representative[k] == k) {

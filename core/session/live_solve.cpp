@@ -315,7 +315,7 @@ void LiveSolve::announce(const std::string& task) {
   abandoned_ = false;
   forEachLane([](Lane& lane) { lane.rest(); });
   task_ = task;
-  task_done_.reset();
+  task_done_ = 0;
   task_began_ = last_told_ = wallSeconds();
   publish();
 }
