@@ -78,7 +78,7 @@ bool Screenshots::promised(const std::filesystem::path& path) const {
 }
 
 void Screenshots::begin(Subject subject, double now) {
-  shot_.emplace();
+  shot_ = std::make_unique<Shot>();
   shot_->subject = std::move(subject);
   shot_->began = now;
   shot_->frames_left = kFramesOfPanels;

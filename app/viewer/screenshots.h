@@ -104,7 +104,7 @@ class Screenshots {
   GuiRenderer& gui_;
   std::function<void()> wake_;
   std::deque<Asked> asked_;
-  std::optional<Shot> shot_;  // of the first of asked_
+  std::unique_ptr<Shot> shot_;  // of the first of asked_
 };
 
 }  // namespace unshot

@@ -114,7 +114,7 @@ void Solve::save(const std::filesystem::path& path, const CancelToken& cancel) c
     archive.fields(std::uint64_t{transport.keptColumns()});
     for (std::uint32_t q = 0; q < transport.patchCount(); ++q) {
       cancel.check();
-      cancel.report(static_cast<double>(q) / transport.patchCount());
+      cancel.report(static_cast<double>(q) / static_cast<double>(transport.patchCount()));
       const Column* const column = transport.kept(q);
       if (!column) continue;
       archive.fields(q);
