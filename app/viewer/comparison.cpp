@@ -20,6 +20,8 @@ namespace {
 // Vertices that lie on no surface of a solution that was loaded: more than this share of them, and it is of
 // another scene.
 constexpr double kMostOutside = 0.02;
+// Of the time to load a solution on another mesh.
+constexpr double kReadingShare = 0.2;
 // How far from a vertex towards its triangles' middles a solution on another mesh is asked.
 constexpr double kBeside = 0.02;
 // In letters' heights: a scale that has room for all its figures.
@@ -162,8 +164,8 @@ std::vector<Probe> besideVertices(const Mesh& mesh) {
 
 /// The solution's radiosity at the vertices of another mesh of its scene.
 std::vector<glm::dvec3> broughtTo(const Snapshot& snapshot, const PlySolution& solution,
-                                  const std::string& file) {
-  const auto answers = answerProbes(solution, besideVertices(*snapshot.mesh));
+                                  const std::string& file, const CancelToken& cancel) {
+  const auto answers = answerProbes(solution, besideVertices(*snapshot.mesh), cancel);
   std::vector<glm::dvec3> out;
   std::size_t outside = 0;
   for (std::size_t v = 0; v < answers.size(); ++v) {
@@ -199,11 +201,12 @@ std::shared_ptr<const ReferenceLight> rememberedLight(const SessionState& state,
   return std::make_shared<const ReferenceLight>(referenceLight(snapshot, choice, nameOf(snapshot, choice)));
 }
 
-std::shared_ptr<const ReferenceLight> loadedLight(const SessionState& state,
-                                                  const std::filesystem::path& ply) {
-  const Snapshot& snapshot = snapshotOf(state);
-  PlySolution solution = readPly(ply);
-  if (!isOn(*snapshot.mesh, solution)) solution.radiosity = broughtTo(snapshot, solution, ply.string());
+std::shared_ptr<const ReferenceLight> loadedLight(const Snapshot& snapshot, const std::filesystem::path& ply,
+                                                  const CancelToken& cancel) {
+  PlySolution solution = readPly(ply, cancel.part(0, kReadingShare));
+  if (!isOn(*snapshot.mesh, solution))
+    solution.radiosity = broughtTo(snapshot, solution, ply.string(), cancel.part(kReadingShare, 1));
+  cancel.check();
   return std::make_shared<const ReferenceLight>(
       referenceLight(snapshot.mesh, solution.radiosity, ply.filename().string()));
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "base/cancel.h"
 #include "render/scene_view.h"
 #include "session/session.h"
 #include "viewer/panels/lower_edge.h"
@@ -16,10 +17,9 @@ namespace unshot {
 std::shared_ptr<const ReferenceLight> rememberedLight(const SessionState& state, const LightChoice& choice);
 
 /// A solution that `unshot solve --ply` wrote, of the same scene on any mesh, brought to the vertices of the
-/// present one. Throws Error: kInput where it is another scene's or no PLY file, kUsage where there is no
-/// scene.
-std::shared_ptr<const ReferenceLight> loadedLight(const SessionState& state,
-                                                  const std::filesystem::path& ply);
+/// snapshot's mesh. Any thread. Throws Error (kInput) where it is another scene's or no PLY file, Cancelled.
+std::shared_ptr<const ReferenceLight> loadedLight(const Snapshot& snapshot, const std::filesystem::path& ply,
+                                                  const CancelToken& cancel = {});
 
 /// How many bounces are shown, where that is a number and known; else 0.
 std::uint32_t shownBounces(const Snapshot& snapshot, const LightChoice& choice);

@@ -26,6 +26,8 @@ constexpr double kRestSeconds = 0.2;  // without motion, before the picture is s
 constexpr double kSliceSeconds = 0.004;
 // However many inputs come, a picture in the making has this long between two frames.
 constexpr double kSceneSeconds = 0.01;
+// A window that waits for something shows how far it is.
+constexpr double kProgressSeconds = 0.1;
 // While it solves, the difference from a reference picture is found no more often than so.
 constexpr double kMeasureSeconds = 0.5;
 
@@ -42,19 +44,27 @@ bool userActs() {
 
 }  // namespace
 
-double Viewer::nextFrame(double now) const { return closing_ ? now : std::min(nextPaint(), nextSceneWork()); }
+double Viewer::nextFrame(double now) const {
+  return closing() ? now : std::min(nextPaint(), nextSceneWork());
+}
 
 /// When the window itself waits for a frame.
 double Viewer::nextPaint() const {
-  if (gui_frames_ == 0 && captures_.empty() && !navigator_.moving()) return kNever;
+  const bool poses = screenshots_.posing() && (!screenshots_.panelsStand() || screenshotStands());
+  if (gui_frames_ == 0 && !poses && !navigator_.moving())
+    return waitsForFiles() || scene_.framing() || state_->saving ? last_frame_ + kProgressSeconds : kNever;
   const double soon = last_frame_ + kFrameSeconds;
-  const bool making = scene_.framing() || (sceneStands() && scene_.outdated(wanted()));
+  const bool unlit = screenshots_.posing() && !screenshots_.lit();
+  const bool making =
+      scene_.framing() || screenshots_.drawing() || unlit || (sceneStands() && scene_.outdated(wanted()));
   return making && !renderer().hardware ? std::max(soon, last_frame_end_ + kSceneSeconds) : soon;
 }
 
 /// When the picture of the scene is to be gone on with.
 double Viewer::nextSceneWork() const {
-  if (scene_.framing() || (sceneStands() && scene_.outdated(wanted()))) return last_scene_work_;
+  if (scene_.framing() || screenshots_.drawing() || (sceneStands() && scene_.outdated(wanted())))
+    return last_scene_work_;
+  if (screenshots_.posing() && !screenshots_.lit()) return last_scene_work_;
   const double soon = last_scene_work_ + kFrameSeconds;
   if ((sceneStands() && scene_.gliding()) || (frame_wanted_ && state_->snapshot && !snapshotRefused()))
     return soon;
@@ -69,7 +79,7 @@ double Viewer::nextSnapshot() const {
 
 bool Viewer::mayBeSharpened(double now) const {
   return idle(state_->phase) && !scene_.empty() && !scene_.sharp() && !scene_.framing() &&
-         !navigator_.moving() && now >= last_motion_ + kRestSeconds;
+         screenshots_.empty() && !navigator_.moving() && now >= last_motion_ + kRestSeconds;
 }
 
 /// Looks for a camera, where one is wanted. Returns whether it was found.
@@ -101,7 +111,12 @@ bool Viewer::sceneStands() const {
 }
 
 SceneDisplay::Wanted Viewer::wanted() const {
-  return {navigator_.camera(), ui_.settings, scene_width_, scene_height_, renderer().hardware ? 2 : 1};
+  const int samples = renderer().hardware ? 2 : 1;
+  if (screenshots_.posing()) {
+    const Screenshots::Subject& subject = screenshots_.subject();
+    return {subject.camera, subject.settings, scene_width_, scene_height_, samples};
+  }
+  return {navigator_.camera(), ui_.settings, scene_width_, scene_height_, samples};
 }
 
 std::shared_ptr<const Snapshot> Viewer::rivalSnapshot() const {
@@ -113,6 +128,10 @@ bool Viewer::hasNewSnapshot() const {
 }
 
 void Viewer::takeSnapshot(double now) {
+  // A screenshot is of one state from its beginning to its end.
+  if (screenshots_.drawing() || (screenshots_.posing() && screenshots_.lit())) return;
+  const bool poses = screenshots_.posing();
+  if (poses && !hasNewSnapshot()) screenshots_.setLit();
   if (!hasNewSnapshot()) return;
   // What is half drawn is of one state; the next picture shows the new one.
   const bool same_mesh =
@@ -120,7 +139,8 @@ void Viewer::takeSnapshot(double now) {
   if (same_mesh && sceneStands() && scene_.drawing()) return;
   // A picture that is drawn for another reason shows the newest.
   const bool drawn_anyway = sceneStands() && scene_.outdated(wanted());
-  if (now < nextSnapshot() && !drawn_anyway && !frame_wanted_) return;
+  if (now < nextSnapshot() && !drawn_anyway && !frame_wanted_ && !poses) return;
+  if (poses) screenshots_.setLit();
   try {
     scene_.setSnapshots(state_->snapshot, rivalSnapshot());
   } catch (const Error& error) {  // too large for the driver: the picture before stays
@@ -137,6 +157,7 @@ bool Viewer::prepare() {
   const bool framed = frame();
   // A GPU draws all of it in the frame.
   const bool shown = sceneStands() && (renderer().hardware || drawScene(now, now + kSliceSeconds));
+  if (screenshots_.drawing()) drawScreenshot(wallSeconds() + kSliceSeconds);
   last_scene_work_ = wallSeconds();
   if (drew_scene_) picture_cost_ += last_scene_work_ - now;
   return paint || shown || framed;
@@ -145,7 +166,8 @@ bool Viewer::prepare() {
 /// Goes on with the picture of the scene until about `deadline`. Returns whether there is another one to
 /// show.
 bool Viewer::drawScene(double now, double deadline) {
-  const double seconds = std::min(now - std::exchange(last_scene_, now), 0.1);
+  const double passed = std::min(now - std::exchange(last_scene_, now), 0.1);
+  const double seconds = screenshots_.posing() ? -1 : passed;  // its exposure does not glide
   if (scene_.draw(wanted(), seconds, deadline)) {
     drew_scene_ = true;
     return !scene_.drawing();
@@ -165,7 +187,7 @@ bool Viewer::draw(GLuint framebuffer, int width, int height) {
   scene_width_ = width - beside.panel - beside.lecture;
   scene_height_ = height;
   measureReference(now);
-  if (!captures_.empty() && gui_frames_ == 0) drawForCapture(width, height);
+  const bool stands = screenshotStands();
   ImGui::NewFrame();
   if (userActs() && notice_.userActs(now)) input();
   navigate(seconds);
@@ -191,16 +213,13 @@ bool Viewer::draw(GLuint framebuffer, int width, int height) {
   const PaintedLook look{framebuffer, width, height, scene_.version(), fingerprint(*ImGui::GetDrawData())};
   const bool changed = painted_ != look;
   painted_ = look;
-  if (changed) paint(framebuffer, width, height, scene_width_, true);
-  // ImGui shows a new window one frame late.
-  if (!captures_.empty() && gui_frames_ == 0) {
-    const Capture next = captures_.front();
-    captures_.pop_front();
-    capture(next, width, height, scene_width_);
-  }
+  if (changed) paint(framebuffer, width, height);
+  if (stands) keepScreenshot(width, height);
+  if (screenshots_.posing()) screenshots_.noteFrame();
   // The next frame measures what this one shows.
   if (changed && referencePicture()) gui_frames_ = std::max(gui_frames_, 1);
   gl::checkErrors(setup_.display->functions(), "drawing a frame of the viewer");
+  if (!changed) last_frame_end_ = wallSeconds();
   return changed;
 }
 
@@ -239,16 +258,18 @@ void Viewer::measureReference(double now) {
   reference_picture_->measure(scene_, scene_width_, scene_height_, referenceLook());
 }
 
-void Viewer::paint(GLuint framebuffer, int width, int height, int scene_width, bool gui) {
+void Viewer::paint(GLuint framebuffer, int width, int height) {
   const gl::Functions& fn = setup_.display->functions();
   fn.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   fn.Viewport(0, 0, width, height);
   const float background = static_cast<float>(srgbFromLinear(kBackground));
   fn.ClearColor(background, background, background, 1);
   fn.Clear(GL_COLOR_BUFFER_BIT);
-  scene_.copyTo(scene_width);
-  if (referencePicture()) reference_picture_->draw(scene_, framebuffer, scene_width, height, referenceLook());
-  if (gui) gui_.draw(*ImGui::GetDrawData(), width, height);
+  const auto copy_scene = [this](int columns) { scene_.copyTo(columns); };
+  copy_scene(scene_width_);
+  if (referencePicture())
+    reference_picture_->draw(copy_scene, framebuffer, scene_width_, height, referenceLook());
+  gui_.draw(*ImGui::GetDrawData(), width, height);
 }
 
 }  // namespace unshot

@@ -48,8 +48,8 @@ void Viewer::pickAt(const Camera& camera, int width, const glm::dvec2& at) {
 }
 
 Camera Viewer::markedCamera() const {
-  // A GPU, or a screenshot, draws the scene in the frame that the marks are for.
-  return renderer().hardware || !captures_.empty() ? scene_.cameraOf(wanted()) : scene_.shownCamera();
+  // A GPU draws the scene in the frame that the marks are for.
+  return renderer().hardware ? scene_.cameraOf(wanted()) : scene_.shownCamera();
 }
 
 void Viewer::pick(const glm::dvec2& at) {

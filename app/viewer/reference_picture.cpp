@@ -56,15 +56,23 @@ std::optional<double> relativeError(const std::vector<std::uint8_t>& ours,
 
 }  // namespace
 
-ReferencePicture::ReferencePicture(gl::Context& context, const std::filesystem::path& file)
+ReferencePicture::Content ReferencePicture::read(const std::filesystem::path& file,
+                                                 const CancelToken& cancel) {
+  const bool light = holdsLight(file);
+  cancel.check();
+  const ImageF image = readImage(file);
+  cancel.check();
+  return {file, light, image.width, image.height, upwards(image)};
+}
+
+ReferencePicture::ReferencePicture(gl::Context& context, const Content& image)
     : context_(context),
-      name_(file.filename().string()),
-      light_(holdsLight(file)),
+      name_(image.file.filename().string()),
+      light_(image.light),
       no_attributes_(context),
       reference_(context),
       ours_{gl::Texture(context), gl::Framebuffer(context)},
       theirs_{gl::Texture(context), gl::Framebuffer(context)} {
-  const ImageF image = readImage(file);
   const gl::Functions& fn = context.functions();
   GLint largest = 0;
   fn.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
@@ -72,13 +80,13 @@ ReferencePicture::ReferencePicture(gl::Context& context, const std::filesystem::
     throw Error(ErrorKind::kEnvironment,
                 "the picture has " + std::to_string(image.width) + " x " + std::to_string(image.height) +
                     " pixels; this OpenGL driver takes " + std::to_string(largest) + " at most along a side",
-                file.string(), "a smaller picture");
+                image.file.string(), "a smaller picture");
   }
   aspect_ = static_cast<double>(image.width) / image.height;
   fn.BindTexture(GL_TEXTURE_2D, reference_.id());
   fn.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
   fn.TexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, image.width, image.height, 0, GL_RGB, GL_FLOAT,
-                upwards(image).data());
+                image.rgb.data());
   fn.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   fn.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   fn.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -107,13 +115,13 @@ void ReferencePicture::allocate(Picture& picture, int width, int height) {
   picture.height = height;
 }
 
-void ReferencePicture::takeOurs(const SceneArea& scene, int width, int height) {
+void ReferencePicture::takeOurs(const CopyScene& scene, int width, int height) {
   const gl::Functions& fn = context_.functions();
   allocate(ours_, width, height);
   fn.BindFramebuffer(GL_FRAMEBUFFER, ours_.framebuffer.id());
   fn.ClearColor(0, 0, 0, 1);
   fn.Clear(GL_COLOR_BUFFER_BIT);
-  scene.copyTo(width);
+  scene(width);
 }
 
 void ReferencePicture::compose(GLuint framebuffer, const Look& look, double wipe, bool difference) {
@@ -147,7 +155,7 @@ void ReferencePicture::compose(GLuint framebuffer, const Look& look, double wipe
   fn.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void ReferencePicture::draw(const SceneArea& scene, GLuint framebuffer, int width, int height,
+void ReferencePicture::draw(const CopyScene& scene, GLuint framebuffer, int width, int height,
                             const Look& look) {
   if (width <= 0 || height <= 0 || !comparable(look.view)) return;
   const StateGuard guard(context_.functions());
@@ -162,7 +170,7 @@ void ReferencePicture::measure(const SceneArea& scene, int width, int height, co
   measured_ = now;
   const gl::Functions& fn = context_.functions();
   const StateGuard guard(fn);
-  takeOurs(scene, width, height);
+  takeOurs([&](int columns) { scene.copyTo(columns); }, width, height);
   allocate(theirs_, width, height);
   compose(theirs_.framebuffer.id(), look, 0, false);
   error_ = relativeError(pixelsOf(fn, ours_.framebuffer, width, height),

@@ -8,9 +8,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "base/cancel.h"
 #include "gl/objects.h"
 #include "viewer/scene_area.h"
 
@@ -19,8 +22,17 @@ namespace unshot {
 /// All calls on the thread where the context is current.
 class ReferencePicture {
  public:
-  /// Throws Error (kInput) where the file is no picture, kEnvironment where it is too large for the driver.
-  ReferencePicture(gl::Context& context, const std::filesystem::path& file);
+  /// What its file holds.
+  struct Content {
+    std::filesystem::path file;
+    bool light = false;  ///< linear light, to be exposed
+    int width = 0, height = 0;
+    std::vector<float> rgb;  ///< lowest row first
+  };
+  /// Any thread. Throws Error (kInput) where the file is no picture, Cancelled.
+  static Content read(const std::filesystem::path& file, const CancelToken& cancel = {});
+  /// Throws Error (kEnvironment) where it is too large for the driver.
+  ReferencePicture(gl::Context& context, const Content& content);
 
   /// How the scene's picture is shown, and where the line is: 0 left, 1 right.
   struct Look {
@@ -37,8 +49,10 @@ class ReferencePicture {
   /// measure() saw; none before, or where no pixel is in both.
   const std::optional<double>& error() const { return error_; }
 
+  /// Copies the scene's picture to the lower left of the bound draw framebuffer, into so many columns.
+  using CopyScene = std::function<void(int width)>;
   /// Draws both over the lower left of `framebuffer`, where the scene's picture is `width` x `height`.
-  void draw(const SceneArea& scene, GLuint framebuffer, int width, int height, const Look& look);
+  void draw(const CopyScene& scene, GLuint framebuffer, int width, int height, const Look& look);
   /// Finds error(), where the picture is another than before.
   void measure(const SceneArea& scene, int width, int height, const Look& look);
 
@@ -50,7 +64,7 @@ class ReferencePicture {
   };
   void allocate(Picture& picture, int width, int height);
   void compose(GLuint framebuffer, const Look& look, double wipe, bool difference);
-  void takeOurs(const SceneArea& scene, int width, int height);
+  void takeOurs(const CopyScene& scene, int width, int height);
 
   gl::Context& context_;
   std::string name_;

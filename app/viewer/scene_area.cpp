@@ -86,6 +86,31 @@ void SceneArea::sharpen(int samples, double deadline) {
   }
 }
 
+void SceneArea::beginFiner(int samples) {
+  first_.beginFiner(samples);
+  if (second_) second_->beginFiner(samples);
+}
+
+bool SceneArea::continueFiner(double deadline) {
+  if (!first_.continueFiner(deadline)) return false;
+  return !second_ || second_->continueFiner(deadline);
+}
+
+double SceneArea::finerDone() const {
+  return second_ ? (first_.finerDone() + second_->finerDone()) / 2 : first_.finerDone();
+}
+
+void SceneArea::endFiner() {
+  first_.endFiner();
+  if (second_) second_->endFiner();
+}
+
+void SceneArea::copyFinerTo(int width) const {
+  const SceneSplit split = splitScene(width, second_.has_value());
+  first_.copyFinerTo(0, split.left);
+  if (second_) second_->copyFinerTo(split.right_at, split.right);
+}
+
 std::uint64_t SceneArea::version() const {
   return changes_ + first_.version() + (second_ ? second_->version() : 0);
 }

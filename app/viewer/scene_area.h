@@ -29,9 +29,14 @@ class SceneArea {
   /// Whether these are what is shown, or drawn next.
   bool has(const std::shared_ptr<const Snapshot>& first, const std::shared_ptr<const Snapshot>& rival) const;
   bool empty() const { return first_.empty(); }
+  /// Whether there are two pictures.
+  bool racing() const { return second_.has_value(); }
 
   void startFraming(double aspect) { first_.startFraming(aspect); }
   bool framing() const { return first_.framing(); }
+  double framingBegan() const { return first_.framingBegan(); }
+  double framingDone() const { return first_.framingDone(); }
+  void hurryFraming() { first_.hurryFraming(); }
   std::optional<Camera> continueFraming(std::optional<double> seconds) {
     return first_.continueFraming(seconds);
   }
@@ -48,6 +53,11 @@ class SceneArea {
   Camera cameraOf(const Wanted& wanted) const { return firstOf(wanted).camera; }
   void sharpen(int samples, double deadline);
   bool sharp() const { return first_.sharp() && (!second_ || second_->sharp()); }
+  void beginFiner(int samples);
+  bool continueFiner(double deadline);
+  double finerDone() const;
+  void copyFinerTo(int width) const;
+  void endFiner();
   std::uint64_t version() const;
   /// Copies the pictures to the lower left of the bound draw framebuffer, into `width` columns of pixels.
   void copyTo(int width) const;

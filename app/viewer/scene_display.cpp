@@ -15,6 +15,8 @@ constexpr double kArrivedStops = 0.01;
 constexpr double kJumpStops = 6;
 constexpr double kMostLost = 64;  // times darker than all light, a part of it is exposed for itself
 constexpr std::size_t kFewestPieces = 10'000;
+constexpr std::size_t kFewestFinePieces = 2'000;  // of pictures with many samples a pixel
+constexpr double kBandSamples = 1e6;              // of such a picture at a time; 20 bytes each
 constexpr std::size_t kFewestRows = 64;
 constexpr std::size_t kFewestBytes = 1 << 20;
 
@@ -50,6 +52,8 @@ void SceneDisplay::setSnapshot(std::shared_ptr<const Snapshot> snapshot) {
 
 void SceneDisplay::startFraming(double aspect) {
   framing_.reset();
+  framing_began_ = wallSeconds();
+  framing_hurries_ = false;
   AutomaticCameraOptions options;
   options.aspect = aspect;
   if (snapshot_) framing_.emplace(context_, snapshot_, options);
@@ -58,7 +62,7 @@ void SceneDisplay::startFraming(double aspect) {
 std::optional<Camera> SceneDisplay::continueFraming(std::optional<double> seconds) {
   if (!framing_) return std::nullopt;
   const double end = wallSeconds() + seconds.value_or(0);
-  while (framing_->step()) {
+  while (!framing_hurries_ && framing_->step()) {
     if (seconds && wallSeconds() >= end) return std::nullopt;
   }
   const Camera found = framing_->best();
@@ -125,8 +129,8 @@ bool SceneDisplay::draw(const Wanted& wanted, double seconds, double deadline) {
   drawn_ = making_->wanted;
   shown_camera_ = drawn_->camera;
   making_.reset();
-  next_band_ = 0;
-  band_piece_ = 0;
+  bands_.next = 0;
+  bands_.piece = 0;
   return true;
 }
 
@@ -168,7 +172,7 @@ double SceneDisplay::extended(double deadline) {
 /// The two passes of a picture, each until it is done or time is up. Returns whether it is done.
 bool SceneDisplay::drawSamples(double deadline) {
   if (sampled(making_->wanted)) return true;
-  if (!drawPieces(samples_, making_->wanted, {}, making_->piece, deadline)) return false;
+  if (!drawPieces(samples_, making_->wanted, {}, making_->piece, pieces_, deadline)) return false;
   sampled_ = making_->wanted;
   small_.reset();
   metered_.reset();
@@ -196,22 +200,23 @@ bool SceneDisplay::showRows(double deadline) {
 }
 
 bool SceneDisplay::drawPieces(const LinearTarget& target, const Wanted& wanted, const FrameWindow& window,
-                              std::size_t& piece, double deadline) {
+                              std::size_t& piece, Pace& pace, double deadline) {
   const gl::Functions& fn = context_.functions();
   const ViewOptions view = viewOf(wanted);
+  const std::size_t least = wanted.samples > 1 ? kFewestFinePieces : kFewestPieces;
   const double aspect = static_cast<double>(wanted.width) / wanted.height;
   const std::size_t all = view_.pieceCount(view);
   target.bind();
   double now = wallSeconds();
   do {
     const std::size_t most =
-        deadline == kAtOnce ? all - piece : pieces_.next(deadline - now, all - piece, kFewestPieces);
+        deadline == kAtOnce ? all - piece : pace.next(deadline - now, all - piece, least);
     const DrawnPieces drawn = view_.drawPieces(wanted.camera, aspect, window, view, {piece, all, most});
     piece = drawn.end;
     if (deadline == kAtOnce) continue;
     fn.Finish();  // else a software renderer only takes notes
     const double start = std::exchange(now, wallSeconds());
-    if (drawn.count > 0) pieces_.note(drawn.count, now - start);
+    if (drawn.count > 0) pace.note(drawn.count, now - start);
   } while (piece < all && now < deadline);
   return piece >= all;
 }
@@ -252,35 +257,92 @@ const std::vector<glm::vec4>& SceneDisplay::smallCopy() {
 
 void SceneDisplay::sharpen(int samples, double deadline) {
   if (sharp()) return;
-  const int width = drawn_->width, height = drawn_->height;
-  const int bottom = height * next_band_ / kBands, top = height * (next_band_ + 1) / kBands;
-  if (samples > drawn_->samples && top > bottom) {
+  if (samples > drawn_->samples) {
     const StateGuard guard(context_.functions());
-    if (band_.width() != width * samples || band_.height() != (top - bottom) * samples) {
-      band_ = LinearTarget();
-      band_ = LinearTarget(context_, width * samples, (top - bottom) * samples);
-      band_piece_ = 0;
-    }
     Wanted finer = *drawn_;
     finer.samples = samples;
-    const FrameWindow window{{0, static_cast<double>(bottom) / height},
-                             {1, static_cast<double>(top) / height}};
-    if (!drawPieces(band_, finer, window, band_piece_, deadline)) return;
-    context_.functions().BindFramebuffer(GL_FRAMEBUFFER, shown_.framebuffer.id());
-    view_.resolve(band_, exposure_, viewOf(finer), {0, bottom, width, top - bottom});
+    if (!drawBand(bands_, finer, exposure_, shown_, deadline)) return;
+  } else {
+    ++bands_.next;
   }
-  ++next_band_;
   ++version_;
-  band_piece_ = 0;
 }
 
-void SceneDisplay::copyTo(int x, int most) const {
-  const int width = std::min(shown_.width, most), height = shown_.height;
+/// The next one, until it is done or time is up. Returns whether it is done.
+bool SceneDisplay::drawBand(Bands& bands, const Wanted& finer, double exposure, const Picture& into,
+                            double deadline) {
+  const int width = finer.width, height = finer.height, samples = finer.samples;
+  const int bottom = height * bands.next / bands.count, top = height * (bands.next + 1) / bands.count;
+  if (top > bottom) {
+    LinearTarget& target = bands.target;
+    if (target.width() != width * samples || target.height() != (top - bottom) * samples) {
+      target = LinearTarget();
+      target = LinearTarget(context_, width * samples, (top - bottom) * samples);
+      bands.piece = 0;
+    }
+    const FrameWindow window{{0, static_cast<double>(bottom) / height},
+                             {1, static_cast<double>(top) / height}};
+    if (!drawPieces(target, finer, window, bands.piece, bands.pace, deadline)) return false;
+    context_.functions().BindFramebuffer(GL_FRAMEBUFFER, into.framebuffer.id());
+    view_.resolve(target, exposure, viewOf(finer), {0, bottom, width, top - bottom});
+  }
+  ++bands.next;
+  bands.piece = 0;
+  return true;
+}
+
+void SceneDisplay::beginFiner(int samples) {
+  finer_.reset();
+  if (!drawn_) return;
+  Finer finer{*drawn_, exposure_, {gl::Texture(context_), gl::Framebuffer(context_)}, {}};
+  finer.wanted.samples = samples;
+  const double all = 1.0 * samples * samples * drawn_->width * drawn_->height;
+  finer.bands.count = std::clamp(static_cast<int>(std::ceil(all / kBandSamples)), 1, drawn_->height);
+  const StateGuard guard(context_.functions());
+  allocate(finer.picture, drawn_->width, drawn_->height);
+  finer_ = std::move(finer);
+}
+
+bool SceneDisplay::continueFiner(double deadline) {
+  if (!finer_) return true;
+  Bands& bands = finer_->bands;
+  const StateGuard guard(context_.functions());
+  while (bands.next < bands.count) {
+    if (!drawBand(bands, finer_->wanted, finer_->exposure, finer_->picture, deadline)) return false;
+    if (wallSeconds() >= deadline) break;
+  }
+  return bands.next == bands.count;
+}
+
+double SceneDisplay::finerDone() const {
+  return finer_ ? static_cast<double>(finer_->bands.next) / finer_->bands.count : 1;
+}
+
+void SceneDisplay::endFiner() {
+  if (!finer_) return;
+  Wanted shown = finer_->wanted;
+  if (drawn_) shown.samples = drawn_->samples;
+  const bool whole = finer_->bands.next == finer_->bands.count;
+  if (whole && drawn_ && !drawing() && !differs(shown) && exposure_ == finer_->exposure) {
+    std::swap(shown_, finer_->picture);
+    bands_.next = kBands;
+    ++version_;
+  }
+  finer_.reset();
+}
+
+void SceneDisplay::copyTo(int x, int width) const { copyPicture(context_.functions(), shown_, x, width); }
+
+void SceneDisplay::copyFinerTo(int x, int width) const {
+  copyPicture(context_.functions(), finer_ ? finer_->picture : shown_, x, width);
+}
+
+void SceneDisplay::copyPicture(const gl::Functions& fn, const Picture& picture, int x, int most) {
+  const int width = std::min(picture.width, most), height = picture.height;
   if (width <= 0) return;
-  const gl::Functions& fn = context_.functions();
   GLint read = 0;
   fn.GetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read);
-  fn.BindFramebuffer(GL_READ_FRAMEBUFFER, shown_.framebuffer.id());
+  fn.BindFramebuffer(GL_READ_FRAMEBUFFER, picture.framebuffer.id());
   fn.BlitFramebuffer(0, 0, width, height, x, 0, x + width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   fn.BindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read));
 }

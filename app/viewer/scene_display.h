@@ -43,6 +43,11 @@ class SceneDisplay {
   /// Starts looking for a good camera for the present snapshot.
   void startFraming(double aspect);
   bool framing() const { return framing_.has_value(); }
+  /// Since when [wallSeconds()], and how much of it is done, from 0 to 1.
+  double framingBegan() const { return framing_began_; }
+  double framingDone() const { return framing_ ? framing_->done() : 1; }
+  /// The next continueFraming() returns the best of what was found so far.
+  void hurryFraming() { framing_hurries_ = true; }
   /// Works on it for about `seconds`, or to its end (no value). Returns the camera once it is found.
   std::optional<Camera> continueFraming(std::optional<double> seconds);
 
@@ -72,7 +77,23 @@ class SceneDisplay {
   /// software renderer smooths edges without holding the window up. To the end of a band or to `deadline`.
   void sharpen(int samples, double deadline);
   /// Whether nothing is left to sharpen.
-  bool sharp() const { return !drawn_ || drawing() || next_band_ >= kBands; }
+  bool sharp() const { return !drawn_ || drawing() || bands_.next >= kBands; }
+
+  // The picture that is shown once more, finer, for a file. It stays of the camera and with the exposure of
+  // the moment when it was begun, whatever is drawn meanwhile. Until it is whole or ended no other snapshot
+  // may be set.
+
+  /// `samples` along a pixel's side. Where no picture is shown there is none to be drawn.
+  void beginFiner(int samples);
+  /// Works on it until about `deadline`. Returns whether it is whole.
+  bool continueFiner(double deadline);
+  /// How much of it is drawn, from 0 to 1.
+  double finerDone() const;
+  /// As copyTo(), of this one.
+  void copyFinerTo(int x, int width) const;
+  /// It is no longer wanted: if it is whole and looks as the one shown does, it takes the place of that.
+  void endFiner();
+
   /// Another number whenever the picture shown has changed.
   std::uint64_t version() const { return version_; }
   /// Copies the picture, or as much of it as fits into `width` columns, to the bottom of the bound draw
@@ -102,6 +123,21 @@ class SceneDisplay {
     int row = 0;            // the first that is not exposed
   };
 
+  /// A picture that is drawn band by band, from the lowest on.
+  struct Bands {
+    LinearTarget target;
+    int count = kBands;
+    int next = 0;           // the first that is not drawn
+    std::size_t piece = 0;  // of it, the first that is not drawn
+    Pace pace;
+  };
+  struct Finer {
+    Wanted wanted;
+    double exposure;
+    Picture picture;
+    Bands bands;
+  };
+
   bool differs(const Wanted& wanted) const;
   bool sampled(const Wanted& wanted) const;
   void begin(const Wanted& wanted);
@@ -112,7 +148,9 @@ class SceneDisplay {
   const std::vector<glm::vec4>& smallCopy();
   bool showRows(double deadline);
   bool drawPieces(const LinearTarget& target, const Wanted& wanted, const FrameWindow& window,
-                  std::size_t& piece, double deadline);
+                  std::size_t& piece, Pace& pace, double deadline);
+  bool drawBand(Bands& bands, const Wanted& finer, double exposure, const Picture& into, double deadline);
+  static void copyPicture(const gl::Functions& fn, const Picture& picture, int x, int most);
   void allocate(Picture& picture, int width, int height);
   double nextExposure(double metered, double seconds);
 
@@ -120,6 +158,8 @@ class SceneDisplay {
   SceneView view_;
   std::shared_ptr<const Snapshot> snapshot_;
   std::optional<CameraSearch> framing_;
+  double framing_began_ = 0;
+  bool framing_hurries_ = false;
   Picture shown_, next_;
   std::optional<Making> making_;
   LinearTarget samples_;
@@ -131,9 +171,8 @@ class SceneDisplay {
   bool drawn_anew_ = false;
   std::uint64_t version_ = 0;
   Pace bytes_, pieces_, rows_;
-  LinearTarget band_;
-  int next_band_ = 0;
-  std::size_t band_piece_ = 0;
+  Bands bands_;  // of the picture shown
+  std::optional<Finer> finer_;
   double exposure_ = 1, glide_seconds_ = 0;
   bool gliding_ = false, snap_ = true;
   std::string exposed_display_;    // exposure_ is for this display

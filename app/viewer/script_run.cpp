@@ -7,7 +7,7 @@ namespace unshot {
 
 bool Viewer::settled() const {
   return session_.sent() == state_->commands && state_->phase != SessionPhase::kLoading &&
-         !(frame_wanted_ && !snapshotRefused()) && !scene_.framing() && captures_.empty() &&
+         !(frame_wanted_ && !snapshotRefused()) && !scene_.framing() && !waitsForFiles() &&
          !state_->spareWork() && teaching_->settled();
 }
 
@@ -33,7 +33,7 @@ void Viewer::runScript(double now) {
 }
 
 void Viewer::runScriptLines(double now) {
-  while (script_at_ < script_.size() && !closing_ && captures_.empty() && !pick_wanted_) {
+  while (script_at_ < script_.size() && !closing_ && !waitsForFiles() && !pick_wanted_) {
     const ScriptLine& line = script_[script_at_];
     if (line.wait != WaitFor::kNothing) {
       if (!waitIsOver(line, now)) return;

@@ -36,6 +36,7 @@ Viewer::Viewer(ViewerSetup setup)
     : setup_(std::move(setup)),
       gui_(*setup_.display),
       scene_(*setup_.display),
+      screenshots_(*setup_.display, gui_, setup_.session.wake),
       session_(setup_.session),
       state_(session_.latest()),
       memory_(setup_.memory),
@@ -78,10 +79,13 @@ void Viewer::update(double now) {
   if (setup_.interrupted && setup_.interrupted()) {
     exit_code_ = kExitInterrupted;
     closing_ = true;
+    screenshots_.drop();
   }
   takeState(now);
   followTeaching();
   runScript(now);
+  followLoads();
+  followScreenshots(now);
   if (watch_.look(now)) input();
   followHint(now);
   keepMovedCamera(now);
@@ -92,6 +96,8 @@ void Viewer::update(double now) {
 void Viewer::takeState(double now) {
   const std::shared_ptr<const SessionState> latest = session_.latest();
   if (latest->version == state_->version) return;
+  if (latest->task_done != state_->task_done || latest->gathering != state_->gathering)
+    gui_frames_ = std::max(gui_frames_, 2);  // its window takes its size in the second
   const bool news = latest->phase != state_->phase || latest->problems != state_->problems;
   const bool another = latest->epoch != state_->epoch;
   const std::shared_ptr<const SessionState> before = std::exchange(state_, latest);
@@ -202,8 +208,8 @@ void Viewer::dismiss() {
     ui_.prompt.close();
   } else if (ui_.help) {
     ui_.help = false;
-  } else if (state_->phase == SessionPhase::kLoading) {
-    giveUpLoading();
+  } else if (giveUp()) {
+    return;
   } else if (sceneChanged()) {
     keepScene();
   } else if (!notice_.dismissNotices()) {
@@ -236,7 +242,6 @@ void Viewer::giveUpLoading() {
   if (state_->phase != SessionPhase::kLoading) return;
   session_.giveUpLoading();
   if (state_->facts) ui_.options = state_->facts->options;  // the panel shows what stays
-  passingNotice("given up: " + state_->task);
 }
 
 void Viewer::restart() {
@@ -318,18 +323,6 @@ void Viewer::remember() {
   passingNotice("remembered: " + ui_.settings.view.reference->name);
 }
 
-void Viewer::loadReference(const std::filesystem::path& ply) {
-  ui_.settings.view.reference = loadedLight(*state_, ply);
-  passingNotice("compared with " + ui_.settings.view.reference->name);
-}
-
-void Viewer::forget() { ui_.settings.view.reference.reset(); }
-
-void Viewer::loadReferencePicture(const std::filesystem::path& file) {
-  reference_picture_ = std::make_unique<ReferencePicture>(*setup_.display, file);
-  passingNotice("compared with " + reference_picture_->name());
-}
-
 // Light of another mesh is no reference; bounces that were chosen are wanted of the new solve too.
 void Viewer::forgetOldLight() {
   ViewOptions& view = ui_.settings.view;
@@ -360,6 +353,7 @@ void Viewer::finish() {
 }
 
 Error Viewer::rescue(const Error& error) {
+  screenshots_.drop();
   const bool lost = setup_.session.kept.path.empty() && state_->facts && state_->measures.shots > 0;
   const std::filesystem::path path = lost ? newFileName(".unshot") : std::filesystem::path();
   const std::uint64_t saves = state_->saves;

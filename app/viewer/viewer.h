@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "session/session.h"
+#include "viewer/background.h"
 #include "viewer/camera_views.h"
 #include "viewer/gui_renderer.h"
 #include "viewer/material_edits.h"
@@ -34,7 +35,9 @@
 #include "viewer/reference_picture.h"
 #include "viewer/scene_area.h"
 #include "viewer/scene_watch.h"
+#include "viewer/screenshots.h"
 #include "viewer/script.h"
+#include "viewer/tasks.h"
 
 namespace unshot {
 
@@ -125,14 +128,15 @@ class Viewer {
   void key(int key, bool ctrl);
   /// Of the screen, for a GUI of the usual size: 1 is a font of 15 px.
   void setScreenScale(double scale);
-  bool closing() const { return closing_; }
+  /// Not before the screenshots that were asked for are written.
+  bool closing() const { return closing_ && screenshots_.empty(); }
   /// Ends the session, once nothing more is to be shown: waits for one step at most, and for what is still to
   /// be saved. Only exitCode() may be called afterwards.
   void finish();
   /// finish() where the window cannot go on, such as after a reset of the driver: saves a solve that is not
   /// kept anyway. Returns the error with the way on.
   Error rescue(const Error& error);
-  bool scriptDone() const { return script_at_ >= script_.size() && captures_.empty() && !pick_wanted_; }
+  bool scriptDone() const { return script_at_ >= script_.size() && !waitsForFiles() && !pick_wanted_; }
   /// 0, or the exit code of the first thing that failed in the script, or of why there is no scene.
   int exitCode() const { return exit_code_; }
 
@@ -144,6 +148,8 @@ class Viewer {
   const ViewerState& ui() const { return ui_; }
   const DisplaySettings& settings() const { return ui_.settings; }
   const SessionState& state() const { return *state_; }
+  /// Whether it holds what was asked for so far.
+  bool upToDate() const { return session_.sent() == state_->commands; }
   const gl::ContextInfo& renderer() const { return setup_.display->info(); }
   const std::vector<std::filesystem::path>& bundledScenes() const { return setup_.bundled; }
   const Camera& camera() const { return navigator_.camera(); }
@@ -203,11 +209,11 @@ class Viewer {
   void race(const std::optional<std::string>& key);
   /// What the display mode `difference` compares with: what is shown now; a solution in a file; direct light.
   void remember();
-  void loadReference(const std::filesystem::path& ply);
+  void loadReference(const std::filesystem::path& file);
   void forget();
-  /// A picture over that of the scene (reference_picture.h).
+  /// A picture over that of the scene (reference_picture.h). Both are read beside the window.
   void loadReferencePicture(const std::filesystem::path& file);
-  void forgetReferencePicture() { reference_picture_.reset(); }
+  void forgetReferencePicture();
   /// Null where there is none, or where the display mode shows nothing to compare with it.
   const ReferencePicture* referencePicture() const;
   /// Finds the automatic camera again.
@@ -240,8 +246,8 @@ class Viewer {
   void focusPicked();
   /// Of the picture that marks are drawn over.
   Camera markedCamera() const;
-  /// Writes what the window shows, with its panels or without. An empty path: a new name in the working
-  /// folder.
+  /// Writes what the window shows, with its panels or without, beside what else it does. An empty path: a new
+  /// name in the working folder.
   void screenshot(std::filesystem::path path, bool with_panels);
   /// Saves the present solve, which goes on, at its next pause between two steps. An empty path: a new name
   /// in the working folder.
@@ -257,18 +263,19 @@ class Viewer {
   /// with.
   void searchActions(const std::string& text);
   void browse(const std::filesystem::path& folder);
-  /// Closes what lies over the scene: the message, else the help, else gives up loading, else notices, else
-  /// what is picked.
+  /// What takes its time, of what is under way.
+  std::vector<Task> tasks();
+  void giveUp(const Task& task);
+  /// Gives up the first of them; whether there is one.
+  bool giveUp();
+  /// Closes what lies over the scene: the message, else the help, else gives up a task, else notices, else what
+  /// is picked.
   void dismiss();
   void close() { closing_ = true; }
 
  private:
   static constexpr int kFramesAfterInput = 3;  // ImGui needs a second frame to settle
 
-  struct Capture {
-    std::filesystem::path path;
-    bool with_panels = true;
-  };
   /// All that a frame looks by.
   struct PaintedLook {
     GLuint framebuffer;
@@ -331,10 +338,18 @@ class Viewer {
   void rememberPanel();
   ReferencePicture::Look referenceLook() const;
   void measureReference(double now);
+  void followLoads();
+  /// Whether some are read or written that were asked for.
+  bool waitsForFiles() const {
+    return !screenshots_.empty() || reference_load_.underWay() || picture_load_.underWay();
+  }
   bool drawScene(double now, double deadline);
-  void paint(GLuint framebuffer, int width, int height, int scene_width, bool gui);
-  void drawForCapture(int width, int height);
-  void capture(const Capture& wanted, int width, int height, int scene_width);
+  void paint(GLuint framebuffer, int width, int height);
+  void followScreenshots(double now);
+  bool screenshotStands() const;
+  void keepScreenshot(int width, int height);
+  void drawScreenshot(double deadline);
+  void failScreenshot(const Error& error);
   void noteSaved(const SessionState& before);
   std::filesystem::path newFileName(const std::string& ending) const;
 
@@ -346,6 +361,7 @@ class Viewer {
   GuiRenderer gui_;
   SceneArea scene_;
   Navigator navigator_;
+  Screenshots screenshots_;
   Session session_;
   std::shared_ptr<const SessionState> state_;
   ViewerState ui_;
@@ -386,7 +402,9 @@ class Viewer {
     glm::dvec3 point;
   };
   std::optional<ZoomTarget> zoom_target_;
-  std::unique_ptr<ReferencePicture> reference_picture_;
+  std::shared_ptr<ReferencePicture> reference_picture_;
+  FileLoad<ReferencePicture::Content> picture_load_;
+  FileLoad<std::shared_ptr<const ReferenceLight>> reference_load_;
   double last_measured_ = 0;  // reference_picture_
   std::unique_ptr<Teaching> teaching_;
 
@@ -405,7 +423,6 @@ class Viewer {
   std::size_t script_at_ = 0;
   std::optional<Session::Hold> hold_;  // while lines of the script run, and before the first
   double wait_began_ = -1;
-  std::deque<Capture> captures_;
   int exit_code_ = 0;
   bool closing_ = false;
 };

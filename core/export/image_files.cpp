@@ -19,6 +19,9 @@
 namespace unshot {
 namespace {
 
+constexpr std::size_t kPiece = 1 << 20;  // bytes written at a time
+constexpr double kEncodingShare = 0.9;   // of the time that a PNG takes
+
 void appendTo(void* context, void* data, int size) {
   static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
 }
@@ -85,10 +88,17 @@ std::string pngBytes(const Image8& image) {
   return bytes;
 }
 
-void writePng(const std::filesystem::path& path, const Image8& image) {
+void writePng(const std::filesystem::path& path, const Image8& image, const CancelToken& cancel) {
   const std::string bytes = pngBytes(image);
   if (bytes.empty()) failEncoding(path);
-  writeWholeFile(path, bytes);
+  cancel.report(kEncodingShare);
+  writeWholeFile(path, [&](const std::function<void(std::string_view)>& sink) {
+    for (std::size_t at = 0; at < bytes.size(); at += kPiece) {
+      cancel.check();
+      sink(std::string_view(bytes).substr(at, kPiece));
+    }
+    cancel.check();
+  });
 }
 
 void writeHdr(const std::filesystem::path& path, const ImageF& image) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "base/cancel.h"
 #include "base/image.h"
 
 namespace unshot {
@@ -12,8 +13,8 @@ namespace unshot {
 /// The bytes of a PNG; empty where it cannot be encoded.
 std::string pngBytes(const Image8& image);
 
-/// Writes a PNG. Throws Error (kEnvironment).
-void writePng(const std::filesystem::path& path, const Image8& image);
+/// Writes a PNG. Throws Error (kEnvironment), Cancelled: then `path` is as it was.
+void writePng(const std::filesystem::path& path, const Image8& image, const CancelToken& cancel = {});
 
 /// Writes Radiance RGBE: about 1 % precision per channel, relative to the brightest of a pixel; what is
 /// negative or no number becomes 0. Throws Error (kEnvironment).

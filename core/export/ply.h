@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/cancel.h"
 #include "session/snapshot.h"
 
 namespace unshot {
@@ -25,7 +26,7 @@ struct PlySolution {
   std::vector<std::uint32_t> triangles;
 };
 
-/// Reads what plyBytes writes (any scalar vertex properties, in any order). Throws Error (kInput).
-PlySolution readPly(const std::filesystem::path& path);
+/// Reads what plyBytes writes (any scalar vertex properties, in any order). Throws Error (kInput), Cancelled.
+PlySolution readPly(const std::filesystem::path& path, const CancelToken& cancel = {});
 
 }  // namespace unshot

@@ -13,6 +13,8 @@
 namespace unshot {
 namespace {
 
+constexpr std::size_t kTold = 4096;  // vertices between two words on how much is read
+
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& why) {
   throw Error(ErrorKind::kInput, why, path.string(), "a PLY file written by unshot solve --ply");
 }
@@ -128,7 +130,7 @@ std::vector<std::uint32_t> readTriangles(const std::string& bytes, const Header&
 
 }  // namespace
 
-PlySolution readPly(const std::filesystem::path& path) {
+PlySolution readPly(const std::filesystem::path& path, const CancelToken& cancel) {
   const std::string bytes = readFile(path);
   const Header header = readHeader(bytes, path);
   const char* const names[2][3] = {{"x", "y", "z"}, {"radiosity_r", "radiosity_g", "radiosity_b"}};
@@ -142,6 +144,8 @@ PlySolution readPly(const std::filesystem::path& path) {
   solution.positions.resize(header.vertices);
   solution.radiosity.resize(header.vertices);
   for (std::size_t v = 0; v < header.vertices; ++v) {
+    cancel.check();
+    if (v % kTold == 0) cancel.report(static_cast<double>(v) / static_cast<double>(header.vertices));
     const char* vertex = bytes.data() + header.length + v * header.stride;
     for (int which = 0; which < 2; ++which) {
       for (int k = 0; k < 3; ++k) {

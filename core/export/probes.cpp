@@ -12,6 +12,8 @@
 namespace unshot {
 namespace {
 
+constexpr std::size_t kTold = 1024;  // probes between two words on how many are answered
+
 constexpr double kLeastCosine = 0.5;       // between the normals of probe and side
 constexpr double kReachOfDiagonal = 2e-3;  // a face that is not planar may be split along another diagonal
 
@@ -88,10 +90,13 @@ Target targetOf(const Mesh& mesh, const Box& box) {
 }
 
 std::vector<std::optional<ProbePlace>> placesOn(const Target& target, double reach, const glm::dvec3& origin,
-                                                std::span<const Probe> probes) {
+                                                std::span<const Probe> probes,
+                                                const CancelToken& cancel = {}) {
   const NearestTriangle nearest(target.positions, target.corners);
   std::vector<std::optional<ProbePlace>> places(probes.size());
   for (std::size_t k = 0; k < probes.size(); ++k) {
+    cancel.check();
+    if (k % kTold == 0) cancel.report(static_cast<double>(k) / static_cast<double>(probes.size()));
     const glm::vec3 normal(glm::normalize(probes[k].normal));
     const auto faces = [&](std::uint32_t triangle) {
       return glm::dot(target.normals[triangle], normal) >= static_cast<float>(kLeastCosine);
@@ -171,7 +176,8 @@ std::vector<std::optional<glm::dvec3>> answerProbes(const Snapshot& snapshot, st
 }
 
 std::vector<std::optional<glm::dvec3>> answerProbes(const PlySolution& solution,
-                                                    std::span<const Probe> probes) {
+                                                    std::span<const Probe> probes,
+                                                    const CancelToken& cancel) {
   if (solution.triangles.empty())
     throw Error(ErrorKind::kInput, "the PLY file has no triangles", {},
                 "a file written by unshot solve --ply");
@@ -187,7 +193,7 @@ std::vector<std::optional<glm::dvec3>> answerProbes(const PlySolution& solution,
   for (std::size_t k = 0; k + 2 < solution.triangles.size(); k += 3)
     target.add(solution.triangles[k], solution.triangles[k + 1], solution.triangles[k + 2]);
   target.displayed = target.normals.size();
-  return answer(placesOn(target, kReachOfDiagonal * glm::length(high - low), origin, probes),
+  return answer(placesOn(target, kReachOfDiagonal * glm::length(high - low), origin, probes, cancel),
                 [&](std::uint32_t vertex) { return solution.radiosity[vertex]; });
 }
 

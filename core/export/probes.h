@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/cancel.h"
 #include "export/ply.h"
 #include "session/snapshot.h"
 
@@ -52,9 +53,10 @@ std::vector<std::optional<ProbePlace>> placeProbes(const Mesh& mesh, std::span<c
 std::vector<std::optional<glm::dvec3>> answerProbes(const Snapshot& snapshot, std::span<const Probe> probes,
                                                     bool with_ambient);
 
-/// The same of a PLY solution. Throws Error (kInput) where it has no triangles.
+/// The same of a PLY solution. Throws Error (kInput) where it has no triangles, Cancelled.
 std::vector<std::optional<glm::dvec3>> answerProbes(const PlySolution& solution,
-                                                    std::span<const Probe> probes);
+                                                    std::span<const Probe> probes,
+                                                    const CancelToken& cancel = {});
 
 /// "x,y,z,nx,ny,nz,B_r,B_g,B_b" with a header, the same rows in the same order; the last three empty where
 /// there is no answer.

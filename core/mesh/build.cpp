@@ -118,6 +118,7 @@ void findBetween(bool sky, Mesh& mesh, const CancelToken& cancel) {
   const Fronts fronts(mesh, isLit, cancel);
   for (Surface& s : mesh.surfaces) {
     cancel.check();
+    cancel.report(static_cast<double>(&s - mesh.surfaces.data()) / static_cast<double>(mesh.surfaces.size()));
     s.between = isLit(s) && (sky || (fronts.seesSomething(s, false) && fronts.seesSomething(s, true)));
   }
 }
@@ -182,6 +183,7 @@ void gridAll(Mesh& mesh, const std::vector<double>& sizes, bool paired, const Co
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
     Surface& surface = mesh.surfaces[s];
     cancel.check();
+    cancel.report(static_cast<double>(s) / static_cast<double>(mesh.surfaces.size()));
     if (!isLit(surface)) continue;
     const glm::uvec2 cells = cellsOf(mesh, surface, sizes[s], paired);
     gridSurface(mesh, s, cells.x, cells.y, patch_cells, paired, contacts[s], tolerance, cancel);
@@ -301,7 +303,9 @@ SurfacesOfScene findSurfaces(const Scene& scene, const MeshOptions& options, con
   mesh.bounds_min = scene.bounds_min;
   mesh.bounds_max = scene.bounds_max;
   mesh.materials = scene.materials;
-  SurfaceTopology topology = makeSurfaces(scene, weld(scene, cancel), options.join_polygons, mesh, cancel);
+  // Shares of the time that a large scene takes.
+  SurfaceTopology topology = makeSurfaces(scene, weld(scene, cancel.part(0, 0.2)), options.join_polygons,
+                                          mesh, cancel.part(0.2, 0.35));
   mesh.smooth_pairs = std::move(topology.smooth_pairs);
   out.edges = std::move(topology.edges);
   if (mesh.surfaces.empty()) {
@@ -310,12 +314,12 @@ SurfacesOfScene findSurfaces(const Scene& scene, const MeshOptions& options, con
   }
   sayExtremeSize(mesh, scene);
   mesh.weld_distance = weldDistance(scene);
-  out.crossings = findCrossings(mesh, 2 * mesh.weld_distance, cancel);
+  out.crossings = findCrossings(mesh, 2 * mesh.weld_distance, cancel.part(0.35, 0.45));
   const double plan_began = wallSeconds();
-  makeSides(options, sidesToKeep(options, out.edges, out.crossings, mesh, cancel), mesh);
+  makeSides(options, sidesToKeep(options, out.edges, out.crossings, mesh, cancel.part(0.45, 0.95)), mesh);
   out.plan_seconds = wallSeconds() - plan_began;
   putLitTrianglesFirst(mesh);
-  findBetween(options.sky, mesh, cancel);
+  findBetween(options.sky, mesh, cancel.part(0.95, 1));
   return out;
 }
 
@@ -326,17 +330,17 @@ Mesh meshSurfaces(SurfacesOfScene surfaces, const MeshOptions& options, const Ca
   const double size = options.element_size.value_or(
       std::sqrt(mesh.lit_area / static_cast<double>(options.elements.value_or(kDefaultElements))));
   const Contacts contacts =
-      findContacts(mesh, surfaces.edges, surfaces.crossings, 2 * tolerance, size, cancel);
+      findContacts(mesh, surfaces.edges, surfaces.crossings, 2 * tolerance, size, cancel.part(0, 0.1));
   if (options.elements) {
     gridForCount(mesh, static_cast<double>(*options.elements), options.paired_cells, contacts, tolerance,
-                 cancel);
+                 cancel.part(0.1, 0.4));
   } else if (!mesh.sides.empty()) {
     std::vector<double> sizes(mesh.surfaces.size(), size);
     if (!options.element_size) refineNearEmitters(mesh, sizes, cancel);
-    gridAll(mesh, sizes, options.paired_cells, contacts, tolerance, cancel);
+    gridAll(mesh, sizes, options.paired_cells, contacts, tolerance, cancel.part(0.1, 0.4));
   }
   numberElements(mesh, cancel);
-  makeDisplay(mesh, cancel);
+  makeDisplay(mesh, cancel.part(0.4, 1));
   joinSmallPatches(mesh, cancel);
   return mesh;
 }

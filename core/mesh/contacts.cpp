@@ -13,6 +13,8 @@
 namespace unshot {
 namespace {
 
+constexpr std::uint32_t kTold = 1024;  // items between two words on how much is done
+
 double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
 // The part of the line a + t d (|d| = 1) inside a convex polygon: t in [first, second]; empty where first >=
@@ -183,6 +185,7 @@ std::vector<Touch> edgesNear(const Mesh& mesh, const std::vector<SurfaceEdge>& e
   std::vector<Touch> out;
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
     cancel.check();
+    if (s % kTold == 0) cancel.report(static_cast<double>(s) / static_cast<double>(mesh.surfaces.size()));
     const Surface& surface = mesh.surfaces[s];
     if (!counts(surface)) continue;
     const double reach = reachOf(surface);
@@ -233,6 +236,7 @@ std::vector<Crossing> findCrossings(const Mesh& mesh, double distance, const Can
   const BoxTree tree(boxes, cancel);
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     cancel.check();
+    if (t % kTold == 0) cancel.report(static_cast<double>(t) / static_cast<double>(mesh.triangles.size()));
     const Surface& surface = mesh.surfaces[owner[t]];
     tree.overlapping(boxes[t], [&](std::uint32_t other) {
       if (owner[other] == owner[t]) return;

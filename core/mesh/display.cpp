@@ -26,10 +26,14 @@ class DisplayMaker {
 
   void run() {
     findPoints();
+    cancel_.report(0.2);
     makeRings();
+    cancel_.report(0.4);
     const std::vector<PieceEdge> edges = pieceEdges();
     joinAir(mesh_, edges, points_, cancel_);
+    cancel_.report(0.6);
     joinCorners(edges);
+    cancel_.report(0.8);
     numberVertices();
     makeTriangles();
     makeWeights();
@@ -59,7 +63,7 @@ class DisplayMaker {
         }
       }
     }
-    const std::vector<std::uint32_t> representative = mergePoints(all, distance_, cancel_);
+    const std::vector<std::uint32_t> representative = mergePoints(all, distance_, cancel_.part(0, 0.2));
     corner_point_.resize(all.size());
     for (std::uint32_t k = 0; k < all.size(); ++k) {
       if (representative[k] == k) {

@@ -12,6 +12,8 @@
 namespace unshot {
 namespace {
 
+constexpr std::uint32_t kTold = 1024;  // items between two words on how much is done
+
 // A point off a side is so many weld distances away: beyond what counts as lying in its plane. A second one,
 // nearer, tells what stands between.
 constexpr double kOff = 4, kNear = 1;
@@ -78,6 +80,7 @@ class Reach {
     }
     for (std::uint32_t side = 0; side < lit_.size(); ++side) {
       cancel.check();
+      if (side % kTold == 0) cancel.report(static_cast<double>(side) / static_cast<double>(lit_.size()));
       lit_[side] = emits[side] || seesLight(side);
       shell_lit_[shells_.of(side)] |= lit_[side];
     }
@@ -148,11 +151,11 @@ std::vector<char> findReach(const Mesh& mesh, const std::vector<SurfaceEdge>& ed
                             double weld_distance, const CancelToken& cancel) {
   std::vector<char> everywhere(2 * mesh.surfaces.size(), 1);
   if (std::find(emits.begin(), emits.end(), 1) == emits.end()) return everywhere;
-  const std::vector<Touch> touches = findTouches(mesh, edges, 2 * kOff * weld_distance, cancel);
+  const std::vector<Touch> touches = findTouches(mesh, edges, 2 * kOff * weld_distance, cancel.part(0, 0.9));
   Shells shells(mesh, edges, crossings, touches, weld_distance, cancel);
   if (!shells.separate()) return everywhere;
   Reach reach(mesh, edges, touches, shells, weld_distance);
-  if (!reach.findLight(emits, cancel)) return everywhere;
+  if (!reach.findLight(emits, cancel.part(0.9, 1))) return everywhere;
   reach.lightMixed();
   return reach.take();
 }

@@ -11,6 +11,8 @@
 namespace unshot {
 namespace {
 
+constexpr std::uint32_t kTold = 1024;  // items between two words on how much is done
+
 constexpr double kSmoothCosine = 0.8660254037844387;  // 30 degrees
 // Areas and lengths that differ by no more are equal; edges run along an axis within a degree.
 constexpr double kAsSmall = 0.01, kAsLong = 0.01, kAlong = 0.9998;
@@ -57,6 +59,8 @@ class SurfaceMaker {
     cancel_.check();
     mesh_.positions = welded_.positions;
     for (std::uint32_t p = 0; p < scene_.polygons.size(); ++p) {
+      if (p % kTold == 0)
+        cancel_.report(static_cast<double>(p) / static_cast<double>(scene_.polygons.size()));
       if (surface_of_[p] == kNone && planes_[p].area > 0) growSurface(p);
     }
     SurfaceTopology out{smoothPairs(), {}};

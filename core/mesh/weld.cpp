@@ -10,6 +10,9 @@
 namespace unshot {
 namespace {
 
+constexpr std::uint32_t kTold = 1024;  // items between two words on how much is done
+constexpr double kMergedShare = 0.3;   // of the time that a scene takes
+
 // Points hashed by cells of twice the merging distance, so that what lies within the distance of a point is
 // in the cells that its box touches: mostly one, at most eight.
 class PointHash {
@@ -84,6 +87,7 @@ std::vector<std::uint32_t> mergePoints(std::span<const glm::dvec3> points, doubl
   PointHash hash(points, distance);
   for (std::uint32_t k = 0; k < points.size(); ++k) {
     cancel.check();
+    if (k % kTold == 0) cancel.report(static_cast<double>(k) / static_cast<double>(points.size()));
     representative[k] = hash.findOrAdd(k);
   }
   return representative;
@@ -92,7 +96,8 @@ std::vector<std::uint32_t> mergePoints(std::span<const glm::dvec3> points, doubl
 WeldedScene weld(const Scene& scene, const CancelToken& cancel) {
   const double distance = weldDistance(scene);
   WeldedScene out;
-  const std::vector<std::uint32_t> representative = mergePoints(scene.positions, distance, cancel);
+  const std::vector<std::uint32_t> representative =
+      mergePoints(scene.positions, distance, cancel.part(0, kMergedShare));
   out.from_scene.resize(scene.positions.size());
   for (std::uint32_t k = 0; k < representative.size(); ++k) {
     if (representative[k] == k) {
@@ -106,8 +111,11 @@ WeldedScene weld(const Scene& scene, const CancelToken& cancel) {
   const PointTree tree(out.positions, cancel);
   out.start.reserve(scene.polygons.size() + 1);
   std::vector<std::uint32_t> ring;
+  const CancelToken rings = cancel.part(kMergedShare, 1);
   for (const Polygon& polygon : scene.polygons) {
     cancel.check();
+    if (out.start.size() % kTold == 0)
+      rings.report(static_cast<double>(out.start.size()) / static_cast<double>(scene.polygons.size()));
     ring.clear();
     for (std::uint32_t k = 0; k < polygon.corner_count; ++k) {
       const std::uint32_t v = out.from_scene[scene.corners[polygon.first_corner + k].position];

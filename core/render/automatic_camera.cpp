@@ -115,6 +115,13 @@ bool CameraSearch::step() {
   return true;
 }
 
+double CameraSearch::done() const {
+  const Impl& s = *impl_;
+  return s.candidates.empty()
+             ? 1
+             : static_cast<double>(s.figures.size()) / static_cast<double>(s.candidates.size());
+}
+
 Camera CameraSearch::best() const {
   const Impl& s = *impl_;
   if (s.candidates.empty()) return {};

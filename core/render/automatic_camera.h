@@ -32,7 +32,9 @@ class CameraSearch {
 
   /// Judges one more candidate; false where none was left.
   bool step();
-  /// The best of those that were judged.
+  /// How many of them are judged, from 0 to 1.
+  double done() const;
+  /// The best of those that were judged; where none was, the first.
   Camera best() const;
 
  private:

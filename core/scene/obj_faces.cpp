@@ -29,6 +29,10 @@ constexpr double kPlanarity = 1e-5;
 constexpr double kAreaAgreement = 1e-7;
 
 /// For each position the first one with the same coordinates.
+// Shares of the time until faces are clean, and until none is there twice; faces between two words on that.
+constexpr double kCleaned = 0.4, kUnique = 0.8;
+constexpr std::uint32_t kTold = 1024;
+
 std::vector<std::uint32_t> weld(const std::vector<glm::dvec3>& positions, const CancelToken& cancel) {
   std::vector<std::uint32_t> order(positions.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -77,11 +81,14 @@ class Builder {
     std::uint32_t first = 0;
     for (std::uint32_t f = 0; f < scan_.faces.size(); ++f) {
       cancel_.check();
+      if (f % kTold == 0) cancel_.report(kCleaned * f / static_cast<double>(scan_.faces.size()));
       checkCorners(scan_.faces[f], first);
       cleanFace(f, first);
       first += scan_.faces[f].corner_count;
     }
+    cancel_.report(kCleaned);
     markDuplicates();
+    cancel_.report(kUnique);
     emitPolygons();
     if (scene_.polygons.empty()) {
       throw Error(ErrorKind::kInput, "no face of the scene has an area",

@@ -28,6 +28,8 @@ bool contains(const std::array<std::string_view, N>& words, std::string_view wor
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
+constexpr std::uint32_t kTold = 4096;  // lines between two words on how much is read
+
 class Scanner {
  public:
   Scanner(std::string_view text, const std::filesystem::path& path, const CancelToken& cancel)
@@ -41,6 +43,9 @@ class Scanner {
     while (reader.next(line)) {
       cancel_.check();
       line_ = line.line;
+      if (line_ % kTold == 0)
+        cancel_.report(static_cast<double>(line.text.data() - text_.data()) /
+                       static_cast<double>(text_.size()));
       statement(line.text);
     }
     if (statements_ == 0) {

@@ -30,19 +30,24 @@ std::uint32_t absoluteIndex(int index, std::size_t count) {
   return static_cast<std::uint32_t>(index > 0 ? index - 1 : static_cast<std::int64_t>(count) + index);
 }
 
+constexpr std::size_t kTold = 1024;  // statements between two words on how much is read
+
 struct NumberSink {
   ObjNumbers numbers;
   const CancelToken& cancel;
+  std::size_t all = 1, read = 0;  // statements
 
   static ObjNumbers& of(void* user) {
     auto& sink = *static_cast<NumberSink*>(user);
     sink.cancel.check();
+    if (++sink.read % kTold == 0)
+      sink.cancel.report(static_cast<double>(sink.read) / static_cast<double>(sink.all));
     return sink.numbers;
   }
 };
 
 ObjNumbers readNumbers(std::string plain, const ObjScan& scan, const CancelToken& cancel) {
-  NumberSink sink{{}, cancel};
+  NumberSink sink{{}, cancel, scan.vertex_count + scan.normal_count + scan.faces.size() + 1};
   ObjNumbers& numbers = sink.numbers;
   numbers.positions.reserve(scan.vertex_count);
   numbers.normals.reserve(scan.normal_count);
@@ -129,14 +134,15 @@ Scene readObj(const std::filesystem::path& path, const CancelToken& cancel) {
   Scene scene;
   scene.path = path;
   scene.name = path.stem().string();
-  const std::string text = readTextFile(path, cancel);
-  ObjScan scan = scanObj(text, path, cancel);
+  // Shares of the time that a large file takes.
+  const std::string text = readTextFile(path, cancel.part(0, 0.05));
+  ObjScan scan = scanObj(text, path, cancel.part(0.05, 0.3));
   scene.smoothing_given = scan.smoothing_given;
   reportStatements(scan, scene);
   ObjMaterials materials = readMaterials(scan, path, readMtlNumbers, scene.diagnostics, cancel);
   scene.materials = materials.materials;
-  const ObjNumbers numbers = readNumbers(std::move(scan.plain), scan, cancel);
-  buildPolygons(scan, numbers, materials, scene, cancel);
+  const ObjNumbers numbers = readNumbers(std::move(scan.plain), scan, cancel.part(0.3, 0.55));
+  buildPolygons(scan, numbers, materials, scene, cancel.part(0.55, 1));
   reportNoLight(scene);
   return scene;
 }

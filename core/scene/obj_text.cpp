@@ -149,6 +149,7 @@ std::string readTextFile(const std::filesystem::path& path, const CancelToken& c
   std::size_t got = 0;
   for (std::streamsize block = 1; block > 0 && got < text.size();) {
     cancel.check();
+    cancel.report(static_cast<double>(got) / static_cast<double>(text.size()));
     stream.read(text.data() + got, static_cast<std::streamsize>(std::min(text.size() - got, kBlock)));
     block = stream.gcount();
     got += static_cast<std::size_t>(block);

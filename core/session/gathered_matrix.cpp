@@ -153,6 +153,11 @@ void MatrixGatherer::begin() {
   of_ = columns();
 }
 
+std::optional<double> MatrixGatherer::done() const {
+  if (!growing_ || growing_->group.empty()) return std::nullopt;
+  return static_cast<double>(next_) / static_cast<double>(growing_->group.size());
+}
+
 bool MatrixGatherer::advance() {
   if (!hasWork()) return false;
   if (!growing_ || of_ != columns()) begin();

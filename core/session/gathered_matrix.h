@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "formfactor/transport.h"
@@ -21,6 +22,8 @@ class MatrixGatherer {
 
   /// Whether columns are at hand that are not gathered yet, and nearly all that hold light among them.
   bool hasWork() const;
+  /// How much of the one under way is gathered, from 0 to 1; none where none is.
+  std::optional<double> done() const;
   /// Goes on for some milliseconds. Returns whether the matrix is complete now.
   bool advance();
   /// The last one that was completed; null before.

@@ -300,6 +300,7 @@ LaneState Lane::state(bool resting, bool paused) const {
   state.progress = solve_->progress();
   state.kept_bytes = solve_->keptBytes();
   if (looking_on_) state.insight = looking_on_->shown();
+  if (resting) state.gathering = gathering();
   state.drawn = solve_->drawn();
   state.stopped_by = broken_.value_or(solve_->stoppedBy());
   return state;

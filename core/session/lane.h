@@ -54,6 +54,10 @@ class Lane {
 
   /// Whether estimates or light by bounces get better while nothing is shot.
   bool hasSpareWork() const;
+  /// How much of the matrix that is looked into is gathered; none where none is under way.
+  std::optional<double> gathering() const {
+    return looking_on_ && looking_on_->hasWork() ? looking_on_->gathering() : std::nullopt;
+  }
   /// Light by bounces, then errors estimated from more places, and the sums of rows. Returns whether that is
   /// to be shown now.
   bool spareWork(double interval);

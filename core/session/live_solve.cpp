@@ -14,6 +14,8 @@ namespace {
 
 // Enough for a state, the messages and the buffers of a save, by far.
 constexpr std::size_t kReserve = std::size_t{32} << 20;
+// Between two states that tell how far a task is.
+constexpr double kTellSeconds = 0.1;
 
 }  // namespace
 
@@ -41,7 +43,7 @@ void LiveSolve::carryOut(const Command& command) {
   try {
     std::visit([this](const auto& c) { perform(c); }, command);
   } catch (const Cancelled&) {
-    abandoned_ = true;
+    abandoned_ = abandoned_ || !std::holds_alternative<command::Save>(command);
   } catch (...) {
     noteException();
   }
@@ -87,13 +89,16 @@ bool LiveSolve::hasSpareWork() const {
 
 void LiveSolve::spareWork() {
   Lane& lane = lane_->hasSpareWork() ? *lane_ : *rival_;
-  if (lane.spareWork(*setup_.interval)) publish();
+  const bool news = lane.spareWork(*setup_.interval);
+  const bool gathers = lane.gathering() && wallSeconds() >= last_told_ + kTellSeconds;
+  if (gathers) last_told_ = wallSeconds();
+  if (news || gathers) publish();
 }
 
 void LiveSolve::perform(const command::Open& c) {
   announce("reading " + c.scene.filename().string());
   const double began = wallSeconds();
-  Scene scene = readObj(c.scene, setup_.given_up);
+  Scene scene = readObj(c.scene, loading());
   begin({.scene = std::move(scene),
          .options = c.options,
          .load_seconds = wallSeconds() - began,
@@ -115,7 +120,7 @@ void LiveSolve::perform(const command::Edit& c) {
   if (!rival_ && !lane.broken() && lane.solve().canEdit(edited.materials)) {
     lane.rest();
     return lane.edit(
-        edited.materials, [this]() -> gl::Context& { return context(); }, setup_.given_up);
+        edited.materials, [this]() -> gl::Context& { return context(); }, CancelToken(*setup_.given_up));
   }
   const bool paused = paused_;
   begin({.scene = std::move(edited),
@@ -195,8 +200,7 @@ void LiveSolve::perform(const command::Save& c) {
   }
   Lane& lane = present();
   lane.checkUsable();
-  lane.rest();
-  lane.solve().save(c.path);
+  saving(c.path, [&](const CancelToken& cancel) { lane.solve().save(c.path, cancel); });
   ++saves_;
   saved_as_ = c.path;
 }
@@ -209,10 +213,11 @@ bool LiveSolve::isKept() const {
 void LiveSolve::offerToSaver() {
   const bool at_rest = !running();
   if (!isKept() || lane_->broken() || !saver_.due(at_rest)) return;
-  lane_->rest();
-  if (std::optional<Error> failed = saver_.offer(lane_->solve(), at_rest))
-    note(Error(failed->kind(), failed->what(), failed->where(),
-               failed->advice() + "; the solve goes on, and is saved again later"));
+  saving(setup_.kept.path, [&](const CancelToken& cancel) {
+    if (std::optional<Error> failed = saver_.offer(lane_->solve(), at_rest, cancel))
+      note(Error(failed->kind(), failed->what(), failed->where(),
+                 failed->advice() + "; the solve goes on, and is saved again later"));
+  });
 }
 
 void LiveSolve::saveKept() {
@@ -240,7 +245,7 @@ void LiveSolve::recover() {
 }
 
 SessionPhase LiveSolve::phase() const {
-  if (!task_.empty()) return SessionPhase::kLoading;
+  if (!task_.empty() && !saving_) return SessionPhase::kLoading;
   if (!lane_) return SessionPhase::kEmpty;
   const bool rival_runs = rival_ && rival_->running();
   return (rival_runs ? *rival_ : *lane_).phase(paused_);
@@ -267,16 +272,15 @@ std::optional<std::string> LiveSolve::rivalMode() const {
 std::unique_ptr<Lane> LiveSolve::makeLane(Scene scene, const SolveOptions& own, const SolveOptions& asked,
                                           double load_seconds, std::shared_ptr<SavedSolve> saved) {
   auto solve = std::make_unique<Solve>(
-      std::move(scene), own, [this]() -> gl::Context& { return context(); }, setup_.given_up,
-      std::move(saved));
-  setup_.given_up.check();
+      std::move(scene), own, [this]() -> gl::Context& { return context(); }, loading(), std::move(saved));
+  loading().check();
   return std::make_unique<Lane>(std::move(solve), asked, load_seconds,
                                 [this](Error problem) { note(std::move(problem)); });
 }
 
 // What is new takes the old one's place only when it stands and has its first snapshots.
 void LiveSolve::begin(Start start) {
-  setup_.given_up.check();
+  loading().check();
   announce("meshing " + start.scene.path.filename().string());
   const bool another_scene = isKept() && start.scene.path != setup_.kept.scene;
   SolveOptions own = start.options, asked = start.options;
@@ -311,6 +315,35 @@ void LiveSolve::announce(const std::string& task) {
   abandoned_ = false;
   forEachLane([](Lane& lane) { lane.rest(); });
   task_ = task;
+  task_done_ = 0;
+  task_began_ = last_told_ = wallSeconds();
+  publish();
+}
+
+/// Saves, and tells how far that is where it takes a while.
+template <class Save>
+void LiveSolve::saving(const std::filesystem::path& path, Save&& save) {
+  forEachLane([](Lane& lane) { lane.rest(); });
+  struct Saving {
+    LiveSolve& live;
+    ~Saving() {
+      live.task_.clear();
+      live.saving_ = false;
+    }
+  } const ends{*this};
+  *setup_.save_given_up = false;
+  task_ = "saving " + path.filename().string();
+  saving_ = true;
+  task_done_ = 0;
+  task_began_ = last_told_ = wallSeconds();
+  save(CancelToken(*setup_.save_given_up, &told_));
+}
+
+void LiveSolve::tell(double done) {
+  const double now = wallSeconds();
+  if (task_.empty() || now < last_told_ + kTellSeconds) return;
+  last_told_ = now;
+  task_done_ = std::max(task_done_.value_or(0), done);
   publish();
 }
 
@@ -352,6 +385,9 @@ void LiveSolve::publish() {
   state->commands = commands_;
   state->phase = phase();
   state->task = task_;
+  if (!task_.empty()) state->task_done = task_done_;
+  state->task_began = task_began_;
+  state->saving = saving_;
   state->problems = problems_;
   state->problem = problem_;
   state->saves = saves_;

@@ -70,7 +70,8 @@ bool isSuperseded(const Command& command, const Command& later);
 struct LiveSolveSetup {
   gl::Context* gl = nullptr;                                         ///< as SessionSetup::gl
   std::function<void(std::shared_ptr<const SessionState>)> publish;  ///< takes each new state
-  CancelToken given_up;                                              ///< loading ends where it asks for that
+  const std::atomic<bool>* given_up = nullptr;                       ///< loading ends where it is raised
+  std::atomic<bool>* save_given_up = nullptr;                        ///< as saving does
   const std::atomic<double>* interval = nullptr;                     ///< of publication [s]
   KeptSolve kept;                                                    ///< as SessionSetup::kept
 };
@@ -137,6 +138,10 @@ class LiveSolve {
   void saveKept();
   void takeSteps();
   void announce(const std::string& task);
+  template <class Save>
+  void saving(const std::filesystem::path& path, Save&& save);
+  CancelToken loading() const { return CancelToken(*setup_.given_up, &told_); }
+  void tell(double done);
   void settle();
   void note(Error problem);
   /// Notes what is being handled.
@@ -163,7 +168,11 @@ class LiveSolve {
   bool paused_ = false;
   std::uint64_t steps_left_ = 0;  // before a pause; 0: no pause is due
   InsightWanted insight_;
-  std::string task_;        // not empty while loading
+  std::string task_;                       // not empty while loading or saving
+  bool saving_ = false;                    // it is saving
+  double task_began_ = 0, last_told_ = 0;  // wall time
+  std::optional<double> task_done_;
+  const CancelToken::Told told_ = [this](double done) { tell(done); };
   bool abandoned_ = false;  // what was to be loaded last was given up
   Saver saver_;
 

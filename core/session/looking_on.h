@@ -29,6 +29,8 @@ class LookingOn {
 
   /// Whether the matrix is wanted and can be worked out further while the solve rests.
   bool hasWork() const;
+  /// How much of it there is; none where none is under way.
+  std::optional<double> gathering() const { return wanted_.matrix ? gatherer_.done() : std::nullopt; }
   /// Goes on with that; returns whether it is complete now.
   bool work() { return gatherer_.advance(); }
 

@@ -34,6 +34,9 @@ constexpr double kForSides = 0.1;
 constexpr double kMostLooks = 6e7;
 // Of scenes with more than so many triangles that light reaches, that needs no mesh to be known.
 constexpr std::size_t kMostTriangles = 50'000;
+// Shares of the time from a large scene to the first shot: surfaces and their meshes found, the scene
+// checked.
+constexpr double kSurfacesShare = 0.45, kMeshShare = 0.9, kChecksShare = 0.95;
 // Light straight from emitters, on a coarse mesh: its vertices cost little there.
 constexpr double kFinerLight = 0.1;
 
@@ -122,7 +125,7 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
   const MeshOptions mesh_options = meshOptions(scene, options);
   std::optional<SurfacesOfScene> surfaces;
   if (!out.mesh) {
-    surfaces = findSurfaces(scene, mesh_options, cancel);
+    surfaces = findSurfaces(scene, mesh_options, cancel.part(0, kSurfacesShare));
     out.plan_seconds = surfaces->plan_seconds;
   }
   const Mesh& known = surfaces ? surfaces->mesh : *out.mesh;
@@ -142,9 +145,10 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
   }
   const bool coarse = coarsest && out.mesh;
   const auto meshed = [&](bool refinable) {
+    const CancelToken part = cancel.part(kSurfacesShare, kMeshShare);
     return refinable
-               ? baseMesh(*surfaces, mesh_options, baseElements(options, surfaces->mesh.sides.size()), cancel)
-               : uniformMesh(*surfaces, mesh_options, cancel);
+               ? baseMesh(*surfaces, mesh_options, baseElements(options, surfaces->mesh.sides.size()), part)
+               : uniformMesh(*surfaces, mesh_options, part);
   };
   if (!out.mesh) out.mesh = meshed(to_refine);
   if (undecided) {
@@ -165,6 +169,7 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
   }
   if (to_refine && out.mesh->base) decisions.push_back(withoutEvenLight(*out.mesh));
   out.whole_error = out.mesh->base || coarse;
+  cancel.report(kMeshShare);
   const double plan_began = wallSeconds();
   out.plan = makePlan(scene, *out.mesh, out.form_factors, options.do_anyway);
   out.plan.insert(out.plan.end(), decisions.begin(), decisions.end());
@@ -193,6 +198,7 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
                                {},
                                "--form-factors hemicube"});
   }
+  cancel.report(kChecksShare);
   out.mesh_seconds = plan_began - mesh_began - out.plan_seconds;
   out.plan_seconds += wallSeconds() - plan_began;
   return out;

@@ -100,7 +100,7 @@ SavedSolve Solve::Impl::head() const {
   return head;
 }
 
-void Solve::save(const std::filesystem::path& path) const {
+void Solve::save(const std::filesystem::path& path, const CancelToken& cancel) const {
   const Impl& s = *impl_;
   const Transport& transport = *s.transport;
   const SavedSolve head = s.head();
@@ -113,12 +113,15 @@ void Solve::save(const std::filesystem::path& path) const {
     archive.fields(s.local_pass ? s.local_pass->irradiance() : std::vector<glm::dvec3>());
     archive.fields(std::uint64_t{transport.keptColumns()});
     for (std::uint32_t q = 0; q < transport.patchCount(); ++q) {
+      cancel.check();
+      cancel.report(static_cast<double>(q) / static_cast<double>(transport.patchCount()));
       const Column* const column = transport.kept(q);
       if (!column) continue;
       archive.fields(q);
       transferColumn(archive, *column);
     }
     archive.finish();
+    cancel.check();
   });
 }
 

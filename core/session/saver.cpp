@@ -19,10 +19,12 @@ bool Saver::due(bool at_rest) const {
   return !path_.empty() && wallSeconds() >= (at_rest ? next_at_rest_ : next_);
 }
 
-std::optional<Error> Saver::offer(const Solve& solve, bool at_rest) {
+std::optional<Error> Saver::offer(const Solve& solve, bool at_rest, const CancelToken& cancel) {
   if (!due(at_rest)) return std::nullopt;
   try {
-    save(solve);
+    save(solve, cancel);
+  } catch (const Cancelled&) {
+    next_ = next_at_rest_ = wallSeconds() + every_;
   } catch (...) {
     next_ = next_at_rest_ = wallSeconds() + every_;
     return presentError();
@@ -30,9 +32,9 @@ std::optional<Error> Saver::offer(const Solve& solve, bool at_rest) {
   return std::nullopt;
 }
 
-void Saver::save(const Solve& solve) {
+void Saver::save(const Solve& solve, const CancelToken& cancel) {
   const double began = wallSeconds();
-  solve.save(path_);
+  solve.save(path_, cancel);
   const double ended = wallSeconds();
   next_at_rest_ = ended + kRest * (ended - began);
   next_ = std::max(ended + every_, next_at_rest_);

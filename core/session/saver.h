@@ -17,10 +17,11 @@ class Saver {
   /// Whether it is time: for a solve that has come to rest at once, unless saving would take more than a
   /// twentieth of the time.
   bool due(bool at_rest = false) const;
-  /// Saves where it is time. What fails is returned, and it is tried again later: the solve goes on.
-  std::optional<Error> offer(const Solve& solve, bool at_rest = false);
-  /// Saves. Throws Error (kEnvironment).
-  void save(const Solve& solve);
+  /// Saves where it is time. What fails is returned, and it is tried again later, as it is where it is given
+  /// up: the solve goes on.
+  std::optional<Error> offer(const Solve& solve, bool at_rest = false, const CancelToken& cancel = {});
+  /// Saves. Throws Error (kEnvironment), Cancelled: then the file before stays.
+  void save(const Solve& solve, const CancelToken& cancel = {});
 
  private:
   std::filesystem::path path_;

@@ -22,6 +22,7 @@ constexpr std::chrono::milliseconds kBeforeAnotherTry{50};
 struct Session::Impl {
   const SessionSetup setup;
   std::atomic<bool> closing{false}, given_up{false};  // given_up: what is being loaded
+  std::atomic<bool> save_given_up{false};
   std::atomic<double> interval{PublishPace::kLeastInterval};
 
   mutable std::mutex mutex;  // of what follows
@@ -81,7 +82,8 @@ struct Session::Impl {
 void Session::Impl::run() {
   LiveSolve live({.gl = setup.gl,
                   .publish = [this](std::shared_ptr<const SessionState> state) { publish(std::move(state)); },
-                  .given_up = CancelToken(given_up),
+                  .given_up = &given_up,
+                  .save_given_up = &save_given_up,
                   .interval = &interval,
                   .kept = setup.kept});
   bool shaken = false;  // what was to be published is still to be
@@ -158,6 +160,9 @@ void Session::giveUpLoading() {
   const std::lock_guard lock(impl_->mutex);  // next() sets it anew for the next command
   impl_->given_up = true;
 }
+
+// A save that has not begun is not meant: each sets it anew.
+void Session::giveUpSaving() { impl_->save_given_up = true; }
 
 void Session::restart(SolveOptions options) { impl_->send(command::Restart{std::move(options)}); }
 

@@ -54,6 +54,8 @@ struct LaneState {
   ErrorEstimates estimates;  ///< refined while nothing else is to be done
   /// Bracket of the spectral radius of M, per channel; upper infinite where it is not known.
   glm::dvec3 radius_lower{0.0}, radius_upper{kNoBound};
+  /// How much of the matrix that is looked into is gathered, from 0 to 1; none where none is being gathered.
+  std::optional<double> gathering;
   bool bounces_under_way = false;  ///< light by bounces is being worked out, or will be once the solve rests
   bool spare_work = false;     ///< the solve rests, and its estimates or light by bounces still get better
   double progress = 0;         ///< Solve::progress
@@ -70,12 +72,15 @@ struct SessionState : LaneState {
   std::uint64_t epoch = 0;                    ///< one more where shots count from 0 again; 0: none yet
   std::uint64_t commands = 0;                 ///< how many of the commands sent are carried out
   SessionPhase phase = SessionPhase::kEmpty;  ///< in a race kRunning or kPaused until both have ended
-  std::string task;                ///< while loading: what is being done, such as "reading room.obj"
-  std::optional<LaneState> rival;  ///< in a race: the other solve
-  std::uint64_t problems = 0;      ///< how many commands or solves have failed so far
-  std::optional<Error> problem;    ///< the last failure
-  std::uint64_t saves = 0;         ///< how often save() has written a file
-  std::filesystem::path saved_as;  ///< the last of them
+  std::string task;  ///< while loading or saving: what is being done, such as "reading room.obj"
+  std::optional<double> task_done;  ///< how much of it, from 0 to 1, where that is known
+  double task_began = 0;            ///< wallSeconds() then
+  bool saving = false;              ///< it is saving, which leaves the phase as it is
+  std::optional<LaneState> rival;   ///< in a race: the other solve
+  std::uint64_t problems = 0;       ///< how many commands or solves have failed so far
+  std::optional<Error> problem;     ///< the last failure
+  std::uint64_t saves = 0;          ///< how often save() has written a file
+  std::filesystem::path saved_as;   ///< the last of them
 
   /// Whether there are more news to wait for while the session rests.
   bool spareWork() const { return spare_work || (rival && rival->spare_work); }
@@ -139,6 +144,8 @@ class Session {
   /// Gives up what is being loaded now: what was before stays, and goes on. Commands that wait are carried
   /// out.
   void giveUpLoading();
+  /// Gives up the save under way, if there is one: a file that is there stays as it was.
+  void giveUpSaving();
   /// The present scene as it was read, from the start, with these options; open() reads the file again.
   /// Another restart that is not ready is given up.
   void restart(SolveOptions options);

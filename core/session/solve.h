@@ -148,7 +148,7 @@ class Solve {
 
   /// Writes all that it takes to go on later (saved_solve.h): whole, or not at all and the file that was
   /// there before stays. Throws Error (kEnvironment).
-  void save(const std::filesystem::path& path) const;
+  void save(const std::filesystem::path& path, const CancelToken& cancel = {}) const;
 
   /// A copy of the present state for display and export.
   Snapshot snapshot() const;

@@ -202,8 +202,11 @@ void performAndSettle(LiveViewer& live, const Action& action, const std::string&
   for (int frame = 0; frame < 5; ++frame) live.draw();
   ASSERT_TRUE(live.until([&] {
     const SessionPhase phase = live->state().phase;
-    return phase != SessionPhase::kLoading && phase != SessionPhase::kRunning && live->scriptDone() &&
-           (live->state().epoch > epoch || live->error() || !kSolveAnew.contains(action.key));
+    if (!live->upToDate() || phase == SessionPhase::kLoading || phase == SessionPhase::kRunning ||
+        !live->scriptDone())
+      return false;
+    if (!kSolveAnew.contains(action.key) || live->error()) return true;
+    return live->state().epoch > epoch && (action.key != "open" || live->nextFrame(0) > 1e30);  // its camera
   }));
 }
 

@@ -98,7 +98,7 @@ TEST(Comparison, ASolutionFromAFileIsComparedOnAnyMesh) {
   LiveViewer live(cornellBox());
   ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
   writeWholeFile(folder / "coarse.ply", plyBytes(shown(live), false, 1));
-  live->perform("reference", folder / "coarse.ply");
+  live.performAndWait("reference", folder / "coarse.ply");
   ASSERT_FALSE(live->error());
   const ReferenceLight same = *live->ui().settings.view.reference;
   const ReferenceLight now = referenceLight(shown(live), {}, "now");
@@ -109,7 +109,7 @@ TEST(Comparison, ASolutionFromAFileIsComparedOnAnyMesh) {
   ASSERT_TRUE(live.until(
       [&] { return live->state().epoch > epoch && live->state().phase == SessionPhase::kConverged; }));
   EXPECT_EQ(live->ui().settings.view.reference, nullptr) << "that of another mesh";
-  live->perform("reference", folder / "coarse.ply");
+  live.performAndWait("reference", folder / "coarse.ply");
   ASSERT_FALSE(live->error());
   const ReferenceLight finer = *live->ui().settings.view.reference;
   EXPECT_EQ(finer.mesh, shown(live).mesh);
@@ -119,7 +119,7 @@ TEST(Comparison, ASolutionFromAFileIsComparedOnAnyMesh) {
     return live->state().facts->scene_name == "two_patches" &&
            live->state().phase == SessionPhase::kConverged;
   }));
-  live->perform("reference", folder / "coarse.ply");
+  live.performAndWait("reference", folder / "coarse.ply");
   ASSERT_TRUE(live->error());
   EXPECT_THAT(live->error()->what(), HasSubstr("another scene"));
 }

@@ -1,6 +1,22 @@
-// Loading that a user gives up.
+// What takes its time and is shown to: how far it is, and that it can be given up.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <map>
+#include <optional>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include "base/atomic_file.h"
+#include "export/ply.h"
+#include "scene/obj_reader.h"
+#include "session/saved_solve.h"
 #include "support/landscape.h"
 #include "support/live_viewer.h"
 #include "support/temp_folder.h"
@@ -38,6 +54,126 @@ TEST_P(GivenUp, LoadingLeavesTheSceneBefore) {
   EXPECT_EQ(live->exitCode(), 0);
   live->perform("reflectance", "white 0.5,0.5,0.5");  // of the scene that stays
   EXPECT_FALSE(live->error());
+}
+
+/// What a large scene tells while it is loaded.
+class LongTasks : public testing::Test {
+ protected:
+  LongTasks() {
+    folder_.write("land.mtl", kLandscapeMaterials);
+    LiveViewer::Options options;
+    options.scene = folder_.write("land.obj", landscape(150));
+    options.solve.elements = 1;
+    live_.emplace(options);
+  }
+  LiveViewer& live() { return *live_; }
+  Viewer& viewer() { return **live_; }
+  bool untilShot() {
+    return live_->until([&] { return viewer().state().measures.shots > 0; });
+  }
+
+  const TempFolder folder_;
+  std::optional<LiveViewer> live_;
+};
+
+TEST_F(LongTasks, LoadingSaysHowFarItIs) {
+  std::map<std::string, std::vector<double>> told;
+  ASSERT_TRUE(live().until([&] {
+    const SessionState& state = viewer().state();
+    if (state.phase == SessionPhase::kLoading && state.task_done) {
+      std::vector<double>& of_task = told[state.task];
+      if (of_task.empty() || of_task.back() != *state.task_done) of_task.push_back(*state.task_done);
+      EXPECT_EQ(viewer().tasks().front().done, state.task_done);
+    }
+    return state.facts != nullptr;
+  }));
+  const std::vector<double>& meshing = told["meshing land.obj"];
+  EXPECT_GE(meshing.size(), 3u) << "a bar that stands";
+  EXPECT_TRUE(std::is_sorted(meshing.begin(), meshing.end()));
+  for (const double done : meshing) EXPECT_TRUE(done >= 0 && done <= 1) << done;
+  EXPECT_FALSE(viewer().state().task_done) << "after its end";
+}
+
+TEST_F(LongTasks, ALookForAViewEndsWithTheBestSoFar) {
+  viewer().pause();
+  const glm::dvec3 before = viewer().camera().eye;
+  const auto looks = [&] {
+    const std::vector<Task> tasks = viewer().tasks();
+    return !tasks.empty() && tasks.front().text.starts_with("looking");
+  };
+  ASSERT_TRUE(live().until([&] { return looks() && *viewer().tasks().front().done > 0; }));
+  EXPECT_LT(*viewer().tasks().front().done, 1);
+  viewer().perform("dismiss");
+  ASSERT_TRUE(live().until([&] { return !looks(); }));
+  EXPECT_NE(viewer().camera().eye, before);
+  EXPECT_FALSE(viewer().error());
+}
+
+// A pipe takes as long as its reader does.
+TEST_F(LongTasks, ASaveThatIsGivenUpIsSaidAndStopsNothingElse) {
+  ASSERT_TRUE(untilShot());
+  const std::string pipe = folder_ / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::jthread reader([&] {
+    const int file = ::open(pipe.c_str(), O_RDONLY);
+    std::vector<char> bytes(1 << 16);
+    while (::read(file, bytes.data(), bytes.size()) > 0)
+      std::this_thread::sleep_for(std::chrono::milliseconds(3));
+    ::close(file);
+  });
+  viewer().perform("save-solve", pipe);
+  ASSERT_TRUE(live().until([&] { return viewer().state().saving; }));
+  const std::vector<Task> tasks = viewer().tasks();
+  ASSERT_FALSE(tasks.empty());
+  EXPECT_EQ(tasks.back().text, "saving pipe");
+  EXPECT_TRUE(tasks.back().done);
+  EXPECT_NE(viewer().state().phase, SessionPhase::kLoading);
+  viewer().giveUp(tasks.back());
+  ASSERT_TRUE(live().until([&] { return !viewer().state().saving; }));
+  EXPECT_EQ(viewer().state().saves, 0u);
+  EXPECT_FALSE(viewer().error());
+  const std::uint64_t shots = viewer().state().measures.shots;
+  EXPECT_TRUE(live().until([&] { return viewer().state().measures.shots > shots; }));
+}
+
+TEST_F(LongTasks, AReferenceThatIsGivenUpIsNone) {
+  ASSERT_TRUE(untilShot());
+  writeWholeFile(folder_ / "light.ply", plyBytes(*viewer().state().snapshot, false, 1));
+  viewer().perform("reference", folder_ / "light.ply");
+  ASSERT_FALSE(viewer().scriptDone());
+  viewer().giveUp(viewer().tasks().back());
+  EXPECT_TRUE(viewer().scriptDone());
+  EXPECT_FALSE(viewer().ui().settings.view.reference);
+  live().performAndWait("reference", folder_ / "light.ply");
+  EXPECT_TRUE(viewer().ui().settings.view.reference);
+  EXPECT_FALSE(viewer().error());
+}
+
+// What is asked for half way: the file that was there stays, and nothing is left beside it.
+TEST(SavingASolve, LeavesTheFileBeforeWhereItIsGivenUp) {
+  const TempFolder folder;
+  SolveOptions options;
+  options.form_factors = "rays";
+  options.elements = 500;
+  options.mode = "southwell";
+  Solve solve(readObj(UNSHOT_SOURCE_DIR "/assets/cornell_box.obj"), options,
+              []() -> gl::Context& { throw std::logic_error("rays need none"); });
+  for (int k = 0; k < 20; ++k) solve.step();
+  const std::string path = folder.write("s.unshot", "what was there");
+  for (const double share : {0.0, 0.5, 0.99}) {
+    std::atomic<bool> given_up{false};
+    double last = -1;
+    const CancelToken::Told told = [&](double done) {
+      EXPECT_GE(done, last);
+      last = done;
+      if (done >= share) given_up = true;
+    };
+    EXPECT_THROW(solve.save(path, CancelToken(given_up, &told)), Cancelled) << share;
+    EXPECT_EQ(folder.read("s.unshot"), "what was there");
+    EXPECT_EQ(folder.names(), std::set<std::string>{"s.unshot"});
+  }
+  solve.save(path);
+  EXPECT_EQ(readSavedSolve(path)->shots, 20u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Gui, GivenUp, testing::Values("give-up", "dismiss"), [](const auto& given) {

@@ -64,7 +64,7 @@ class ReferencePictures : public testing::Test {
 };
 
 TEST_F(ReferencePictures, OneOfTheSameIsNoDifferent) {
-  viewer_->perform("reference-picture", direct_);
+  viewer_.performAndWait("reference-picture", direct_);
   look();
   EXPECT_GE(error(), 0);
   EXPECT_LT(error(), 0.004) << "one step of 8 bits";
@@ -82,13 +82,13 @@ TEST_F(ReferencePictures, TheFigureIsThatOfTheFiles) {
   }
   const double wanted = differenceOf(a, b).nrmse;
   EXPECT_GT(wanted, 0.2);
-  viewer_->perform("reference-picture", all_);
+  viewer_.performAndWait("reference-picture", all_);
   look();
   EXPECT_NEAR(error(), wanted, 0.01 * wanted);
 }
 
 TEST_F(ReferencePictures, TheLinePartsTheTwo) {
-  viewer_->perform("reference-picture", all_);
+  viewer_.performAndWait("reference-picture", all_);
   viewer_->perform("wipe", "0.25");
   const ImageF both = readImage(taken("both.png")), ours = readImage(direct_), theirs = readImage(all_);
   int apart = 0;
@@ -106,7 +106,7 @@ TEST_F(ReferencePictures, TheLinePartsTheTwo) {
 }
 
 TEST_F(ReferencePictures, TheLineCanBeDragged) {
-  viewer_->perform("reference-picture", all_);
+  viewer_.performAndWait("reference-picture", all_);
   look();
   ImGuiIO& io = ImGui::GetIO();
   const auto move = [&](float x, bool down) {
@@ -127,11 +127,11 @@ TEST_F(ReferencePictures, TheLineCanBeDragged) {
 
 TEST_F(ReferencePictures, WhatIsNoPictureIsRefused) {
   folder_.write("text.png", "no picture");
-  viewer_->perform("reference-picture", (folder_.path() / "text.png").string());
+  viewer_.performAndWait("reference-picture", (folder_.path() / "text.png").string());
   EXPECT_TRUE(viewer_->error());
   EXPECT_FALSE(viewer_->referencePicture());
   viewer_->perform("dismiss");
-  viewer_->perform("reference-picture", all_);
+  viewer_.performAndWait("reference-picture", all_);
   EXPECT_TRUE(viewer_->referencePicture());
   viewer_->perform("display", "false-radiosity");
   EXPECT_FALSE(viewer_->referencePicture()) << "no false colours can be compared";

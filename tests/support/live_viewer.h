@@ -98,6 +98,11 @@ class LiveViewer {
     }
     return true;
   }
+  /// Performs an action, and waits for what it reads beside the window.
+  void performAndWait(const std::string& action, const std::string& argument) {
+    viewer_->perform(action, argument);
+    until([&] { return viewer_->scriptDone(); });
+  }
   bool untilPhase(SessionPhase phase) {
     return until([&] { return viewer_->state().phase == phase; });
   }

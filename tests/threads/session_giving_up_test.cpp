@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <set>
 #include <thread>
 
 #include "mesh/build.h"
+#include "session/saved_solve.h"
 #include "support/dice.h"
 #include "support/landscape.h"
 #include "support/sanitized.h"
@@ -125,6 +128,32 @@ TEST_F(SessionGivingUp, WhenAskedToTheSceneBeforeGoesOn) {
   watch->giveUpLoading();
   EXPECT_EQ(watch.wait("the end of it", [](const SessionState& s) { return s.commands == 1; })->phase,
             SessionPhase::kEmpty);
+}
+
+// At any moment of it: the file is whole or not there, and the solve goes on.
+TEST_F(SessionGivingUp, ASaveLeavesAWholeFileOrNone) {
+  SessionWatch watch;
+  watch->open(asset("cornell_box.obj"), endless(2000));
+  watch.carriedOut();
+  Dice dice(2);
+  const std::set<std::string> others = folder_.names();
+  for (int k = 0; k < 20; ++k) {
+    const std::uint64_t saves = watch->latest()->saves;
+    watch->save(folder_ / "s.unshot");
+    const double moment = wallSeconds() + 0.02 * dice.uniform();
+    while (wallSeconds() < moment) std::this_thread::yield();
+    watch->giveUpSaving();
+    const StatePointer after = watch.carriedOut();
+    EXPECT_EQ(after->problems, 0u);
+    EXPECT_FALSE(after->saving);
+    EXPECT_EQ(folder_.has("s.unshot"), after->saves > saves);
+    if (!folder_.has("s.unshot")) continue;
+    EXPECT_GT(readSavedSolve(folder_ / "s.unshot")->quality.size(), 0u);
+    std::filesystem::remove(folder_ / "s.unshot");
+  }
+  EXPECT_EQ(folder_.names(), others);
+  const std::uint64_t shots = watch->latest()->measures.shots;
+  watch.wait("more shots", [&](const SessionState& s) { return s.measures.shots > shots; });
 }
 
 TEST_F(SessionGivingUp, OfSeveralRestartsTheLastCounts) {

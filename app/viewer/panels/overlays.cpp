@@ -1,6 +1,8 @@
 // What lies over the scene: messages, what is being loaded, help and prompts.
 #include <algorithm>
+#include <vector>
 
+#include "base/clock.h"
 #include "base/text.h"
 #include "viewer/panels/help_panel.h"
 #include "viewer/panels/panels.h"
@@ -15,6 +17,7 @@ namespace {
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
                                     ImGuiWindowFlags_NoFocusOnAppearing;
+constexpr double kTaskSeconds = 0.3;  // what takes no longer is not told
 constexpr const char* kHint = "Drag to orbit, click to pick, H for help, Ctrl+P for all actions";
 
 void errorWindow(Viewer& viewer, float middle) {
@@ -43,16 +46,27 @@ void errorWindow(Viewer& viewer, float middle) {
   ImGui::PopStyleColor(2);
 }
 
-void loadingWindow(Viewer& viewer, float middle) {
+/// Whether there was one to show.
+bool tasksWindow(Viewer& viewer, float middle) {
+  std::vector<Task> tasks = viewer.tasks();
+  std::erase_if(tasks, [](const Task& task) { return wallSeconds() < task.since + kTaskSeconds; });
+  if (tasks.empty()) return false;
   ImGui::SetNextWindowPos({middle, ImGui::GetIO().DisplaySize.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowBgAlpha(0.85f);
-  ImGui::Begin("loading", nullptr, kFixed);
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted((viewer.state().task + " \u2026").c_str());
-  ImGui::SameLine();
-  if (ImGui::Button("Give up")) viewer.perform("give-up");
-  tooltip("Esc: the scene before stays");
+  ImGui::Begin("tasks", nullptr, kFixed);
+  for (std::size_t k = 0; k < tasks.size(); ++k) {
+    const Task& task = tasks[k];
+    ImGui::PushID(static_cast<int>(k));
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(shortened(task.text + " \u2026", 1.2f * middle).c_str());
+    ImGui::SameLine();
+    if (ImGui::Button("Give up")) viewer.giveUp(task);
+    tooltip((k == 0 ? "Esc: " : "") + std::string(task.given_up));
+    if (task.done) ImGui::ProgressBar(static_cast<float>(*task.done), {-1, 0.4f * ImGui::GetFontSize()}, "");
+    ImGui::PopID();
+  }
   ImGui::End();
+  return true;
 }
 
 /// Between the message above and the notice below.
@@ -118,8 +132,8 @@ void buildOverlays(Viewer& viewer, int scene_width, float bottom, bool notices, 
     buildMarks(viewer, scene_width);
     buildRaceLabels(viewer, scene_width);
   }
-  if (state.phase == SessionPhase::kLoading) {
-    loadingWindow(viewer, middle);
+  if (tasksWindow(viewer, middle)) {
+    // What else there is to say is said once it is done.
   } else if (framing && state.facts) {
     line("framing", "looking for a good view \u2026", {middle, height / 2}, {0.5f, 0.5f});
   } else if (state.phase == SessionPhase::kEmpty && !viewer.error()) {

@@ -86,8 +86,8 @@ class LayoutCheck {
 
   /// Windows that may lie over others: what is said to the user and asks to be read, and the line of a wipe.
   static bool liesOver(const std::string& name) {
-    static const std::set<std::string> names = {"message", "help", "notice", "loading", "framing",
-                                                "empty",   "dark", "wipe",   "prompt",  "changed"};
+    static const std::set<std::string> names = {"message", "help", "notice", "tasks",  "framing",
+                                                "empty",   "dark", "wipe",   "prompt", "changed"};
     return names.contains(name);
   }
 

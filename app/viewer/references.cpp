@@ -1,0 +1,52 @@
+// What the viewer's picture is compared with, read from files beside the window.
+#include "viewer/comparison.h"
+#include "viewer/viewer.h"
+
+namespace unshot {
+
+void Viewer::loadReference(const std::filesystem::path& file) {
+  requiredMesh();
+  const std::filesystem::path ply = file;  // it may be that of the load before
+  reference_load_.begin(
+      ply,
+      [ply, snapshot = state_->snapshot](const CancelToken& cancel) {
+        return loadedLight(*snapshot, ply, cancel);
+      },
+      setup_.session.wake);
+}
+
+void Viewer::forget() {
+  reference_load_.giveUp();
+  ui_.settings.view.reference.reset();
+}
+
+void Viewer::loadReferencePicture(const std::filesystem::path& file) {
+  picture_load_.begin(
+      file, [file](const CancelToken& cancel) { return ReferencePicture::read(file, cancel); },
+      setup_.session.wake);
+}
+
+void Viewer::forgetReferencePicture() {
+  picture_load_.giveUp();
+  reference_picture_.reset();
+}
+
+/// Takes what is read.
+void Viewer::followLoads() {
+  try {
+    if (auto light = reference_load_.take()) {
+      // Where the mesh is another by now, it is wanted of that one.
+      if ((*light)->mesh->cut != requiredMesh().cut) return loadReference(reference_load_.file());
+      ui_.settings.view.reference = *light;
+      passingNotice("compared with " + (*light)->name);
+    }
+    if (const auto content = picture_load_.take()) {
+      reference_picture_ = std::make_shared<ReferencePicture>(*setup_.display, *content);
+      passingNotice("compared with " + reference_picture_->name());
+    }
+  } catch (const Error& error) {
+    fail(error);
+  }
+}
+
+}  // namespace unshot

@@ -1,0 +1,18 @@
+// What the viewer does that takes its time, as it is shown: how far it is, and how to give it up.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace unshot {
+
+struct Task {
+  std::string text;            ///< such as "reading room.obj"
+  std::optional<double> done;  ///< from 0 to 1; none where it is not known
+  const char* given_up;        ///< what becomes of it then, for a tooltip
+  std::function<void()> giveUp;
+  double since = 0;  ///< wallSeconds()
+};
+
+}  // namespace unshot
