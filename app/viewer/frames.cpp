@@ -203,7 +203,7 @@ bool Viewer::draw(GLuint framebuffer, int width, int height) {
     buildLecture(*this, scene_width_, beside.lecture);
     buildHemicube(*this, edge);
   }
-  buildOverlays(*this, scene_width_, bottom, captures_.empty(), scene_.framing() || frame_wanted_);
+  buildOverlays(*this, scene_width_, bottom, !screenshots_.posing(), scene_.framing() || frame_wanted_);
   ImGui::Render();
 
   if (renderer().hardware) {

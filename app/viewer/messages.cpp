@@ -55,11 +55,8 @@ void Messages::addPassing(std::string text, double now) {
 
 void Messages::add(std::string text, double now) {
   note(text, false, now);
-  underway_.clear();
   lasting_.push_back({std::move(text), kReadSeconds});
 }
-
-void Messages::setUnderway(std::string text) { underway_ = std::move(text); }
 
 bool Messages::userActs(double now) {
   const double seconds = std::clamp(now - std::exchange(last_act_, now), 0.0, kPause);
@@ -88,7 +85,6 @@ std::vector<std::string> Messages::lines() const {
   const std::size_t first = lasting_.size() > kMostLines ? lasting_.size() - kMostLines : 0;
   if (first > 0) out.push_back(std::to_string(first) + " more under \"Messages\" in the panel");
   for (std::size_t k = first; k < lasting_.size(); ++k) out.push_back(lasting_[k].text);
-  if (!underway_.empty()) out.push_back(underway_);
   if (passing_) out.push_back(*passing_);
   return out;
 }

@@ -35,8 +35,6 @@ class Messages {
   void addPassing(std::string text, double now);
   /// A line that stays until it is dismissed, or the user goes on working for a while.
   void add(std::string text, double now);
-  /// A line for as long as something lasts; empty: it is over.
-  void setUnderway(std::string text);
   /// Something was typed, or moved with the mouse: takes some of the time of lines that stay. Returns whether
   /// one has gone.
   bool userActs(double now);
@@ -71,7 +69,6 @@ class Messages {
   double passing_until_ = 0;
   std::deque<Lasting> lasting_;
   double last_act_ = 0;
-  std::string underway_;
   std::deque<Logged> log_;
 };
 

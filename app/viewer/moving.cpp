@@ -104,7 +104,7 @@ void Viewer::followShape(int width, int height, double now) {
 
 /// A camera that was found by itself, and not moved since, is found again for a window of another shape.
 void Viewer::fitToShape(double now) {
-  if (now < shape_rests_at_ || !sceneStands() || !captures_.empty()) return;
+  if (now < shape_rests_at_ || !sceneStands() || !screenshots_.empty()) return;
   shape_rests_at_ = kNever;
   if (framed_aspect_ == window_aspect_ || navigator_.camera() != found_camera_) return;
   frameScene();

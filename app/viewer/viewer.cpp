@@ -124,7 +124,6 @@ void Viewer::takeState(double now) {
     problems_seen_ = state_->problems;
     // Of a scene that cannot be read it is of interest when it is mended.
     if (!state_->facts || samePath(watch_.sceneOpening(), state_->facts->scene_path)) watch_.opened();
-    notice_.setUnderway({});
     // What was asked for is not to be had: the panel shows what is.
     if (state_->facts && session_.sent() == state_->commands) ui_.options = state_->facts->options;
     fail(*state_->problem, true);
@@ -335,7 +334,7 @@ void Viewer::saveSolve(std::filesystem::path path) {
   if (state_->facts && samePath(path, state_->facts->scene_path))
     throw Error(ErrorKind::kUsage, "is the scene itself", path.string(), "another file name");
   checkWritable(path);
-  notice_.setUnderway("saving the solve: " + path.string());
+  passingNotice("saving the solve: " + path.string());
   input();
   session_.save(std::move(path));
 }

@@ -268,8 +268,8 @@ class Viewer {
   void giveUp(const Task& task);
   /// Gives up the first of them; whether there is one.
   bool giveUp();
-  /// Closes what lies over the scene: the message, else the help, else gives up a task, else notices, else what
-  /// is picked.
+  /// Closes what lies over the scene: the message, else the help, else gives up a task, else notices, else
+  /// what is picked.
   void dismiss();
   void close() { closing_ = true; }
 

@@ -47,10 +47,16 @@ constexpr std::uint32_t kFinestEmitterResolution = 1024;
 constexpr std::uint32_t kGroupPatches = 16;
 constexpr std::size_t kGroupBytes = std::size_t{64} << 20;
 
+// A group does not shoot as one where more than this share of its view is nearer than a part of its size:
+// between sheets that lie close together light arrives opposite to where it left.
+constexpr double kFacedShare = 0.2;
+constexpr double kFacedFraction = 4;
+
 // What a picture for a group of patches showed: shares of its light.
 struct GroupView {
   std::vector<std::pair<std::uint32_t, float>> received;  // element and share, ascending
   double escape = 0;
+  bool faced = false;  // nothing else is kept then
 };
 
 class Hemicube final : public FormFactorMethod {
@@ -79,7 +85,9 @@ class Hemicube final : public FormFactorMethod {
   // of the time; that of single pictures 1.1 %, in 0.4 of it.
   Column draft(std::uint32_t q, ColumnQuality wanted) override {
     if (mesh_.emits(q)) return shotBy(q, false);
-    if (wanted == ColumnQuality::kGroup && groups_.members(groups_.of(q)).size() > 1) return shotByGroup(q);
+    if (wanted == ColumnQuality::kGroup && groups_.members(groups_.of(q)).size() > 1) {
+      if (const GroupView& view = groupView(groups_.of(q)); !view.faced) return shotByGroup(q, view);
+    }
     return shotBy(q, true);
   }
 
@@ -128,13 +136,10 @@ class Hemicube final : public FormFactorMethod {
   }
 
   // The shares of the group's picture, times the patch's area.
-  Column shotByGroup(std::uint32_t q) {
-    const std::uint32_t group = groups_.of(q);
+  Column shotByGroup(std::uint32_t q, const GroupView& view) {
     Column out;
     out.quality = ColumnQuality::kGroup;
-    out.at_hand = group_views_.contains(group);
-    if (!out.at_hand) takeGroupView(group);
-    const GroupView& view = group_views_.at(group);
+    out.at_hand = !group_is_new_;
     for (const auto& [element, share] : view.received) {
       out.receiver.push_back(element);
       out.k.push_back(
@@ -145,13 +150,23 @@ class Hemicube final : public FormFactorMethod {
     return out;
   }
 
+  const GroupView& groupView(std::uint32_t group) {
+    group_is_new_ = !group_views_.contains(group);
+    if (group_is_new_) takeGroupView(group);
+    return group_views_.at(group);
+  }
+
   void takeGroupView(std::uint32_t group) {
     begin();
     const Region whole = groups_.region(group);
     drafting_ = true;
+    faced_share_ = 0;
     shoot(whole, 0, 1 / whole.area);
     GroupView view;
-    takeReceived([&](std::uint32_t e, double f) { view.received.emplace_back(e, static_cast<float>(f)); });
+    view.faced = faced_share_ > kFacedShare;
+    takeReceived([&](std::uint32_t e, double f) {
+      if (!view.faced) view.received.emplace_back(e, static_cast<float>(f));
+    });
     view.escape = escape_;
     const std::size_t bytes = view.received.size() * sizeof(view.received[0]);
     if (group_bytes_ + bytes > kGroupBytes) {
@@ -228,9 +243,12 @@ class Hemicube final : public FormFactorMethod {
     if (std::sqrt(region.area) > 1.4 * floor_ && (splits > 0 || drafting_)) {
       const double limit =
           std::sqrt(region.area) / (emits ? kEmitterSplitFraction : kSplitFraction) / seen.far_distance;
+      const double faced = std::sqrt(region.area) / kFacedFraction / seen.far_distance;
       double near = 0;
-      for (std::size_t k = 0; k < delta.size(); ++k)
+      for (std::size_t k = 0; k < delta.size(); ++k) {
         near += static_cast<double>(seen.distance[k]) < limit ? delta[k] : 0.0;
+        faced_share_ += drafting_ && static_cast<double>(seen.distance[k]) < faced ? delta[k] : 0.0;
+      }
       if (near > kNearShare && splits == 0) {
         cut_short_ = true;
       } else if (near > kNearShare) {
@@ -270,6 +288,8 @@ class Hemicube final : public FormFactorMethod {
   std::vector<std::uint64_t> touched_;  // a bit per element: ascending order without sorting
   double escape_ = 0;
   bool drafting_ = false, cut_short_ = false;  // whether a split is left out, and whether one was
+  bool group_is_new_ = false;                  // the view of it was taken just now
+  double faced_share_ = 0;                     // of the view of a draft: what is near (kFacedFraction)
   std::uint64_t drawn_ = 0;
 };
 

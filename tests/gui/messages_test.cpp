@@ -69,11 +69,9 @@ TEST(Messages, NoticesStayUntilTheUserHasWorkedUnderThem) {
   EXPECT_EQ(said.log().size(), 4u);
 }
 
-TEST(Messages, WhatIsUnderWayGoesWithItsEnd) {
+TEST(Messages, NoticesAreDismissedAndPassingOnesStay) {
   Messages said;
-  said.setUnderway("saving");
   said.addPassing("copied", 0);
-  EXPECT_THAT(said.lines(), ElementsAre("saving", "copied"));
   said.add("written: c", 0);
   EXPECT_THAT(said.lines(), ElementsAre("written: c", "copied"));
   EXPECT_TRUE(said.dismissNotices());

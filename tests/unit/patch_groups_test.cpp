@@ -103,6 +103,31 @@ TEST(DraftsOfGroups, AreOnePictureAndSendTheSameShares) {
   }
 }
 
+// Between two sheets, a twentieth of their size apart, what each patch sends arrives opposite to it: one
+// picture from the middle would send all of it there.
+TEST(DraftsOfGroups, AreNotForSheetsThatFaceEachOther) {
+  SceneBuilder b;
+  const auto grey = b.material("grey", glm::dvec3(0.7)), lamp = b.material("lamp", {}, glm::dvec3(10));
+  addBox(b, allOf(grey), glm::dvec3(0), glm::dvec3(4), true);
+  for (const double y : {1.0, 1.05}) b.quad(grey, {1, y, 1}, {0, 0, 1}, {1, 0, 0});
+  b.quad(lamp, {1, 3.9, 1}, {1, 0, 0}, {0, 0, 1});
+  const Mesh mesh = buildMesh(b.finish(), {20'000, {}, false});
+  const auto method = makeMethod(findChoice(formFactorMethods(), "hemicube", "form-factor method"), mesh);
+  int between = 0, open = 0;
+  for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
+    const Side& side = mesh.sides[mesh.patch_side[q]];
+    const double height = mesh.surfaces[side.surface].origin.y + mesh.frame_origin.y;
+    const bool lower = std::abs(height - 1) < 1e-6, upper = std::abs(height - 1.05) < 1e-6;
+    if (std::abs(side.normal.y) < 0.5 || (!lower && !upper)) continue;
+    const bool faced = lower ? side.normal.y > 0 : side.normal.y < 0;
+    const ColumnQuality quality = method->draft(q, ColumnQuality::kGroup).quality;
+    EXPECT_EQ(quality == ColumnQuality::kGroup, !faced) << "patch " << q;
+    (faced ? between : open) += 1;
+  }
+  EXPECT_GT(between, 4);
+  EXPECT_GT(open, 4);
+}
+
 // Patches of an emitter show in every shadow: they are never drafts.
 TEST(DraftsOfGroups, AreNotForEmitters) {
   const Mesh mesh = buildMesh(publishedCornellBox(), {2000, {}, false});
