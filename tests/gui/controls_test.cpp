@@ -63,7 +63,7 @@ class Controls : public testing::Test {
     options.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
     options.solve.elements = 200;
     options.solve.error = 0.1;
-    options.width = 1300;
+    options.width = 700;
     options.height = 2000;  // all of the panel is in it: what is not cannot be clicked
     return options;
   }
