@@ -334,12 +334,12 @@ TEST(ControlsOfTheWindow, FollowTheMouse) {
     xdotool("mousemove --window " + run.window() + " " + std::to_string(static_cast<int>(at.x)) + " " +
             std::to_string(static_cast<int>(at.y)));
   };
-  for (const auto& [label, at] : places) {
-    SCOPED_TRACE(label);
+  for (const auto& place : places) {
+    SCOPED_TRACE(place.first);
     int by = 0;
     EXPECT_TRUE(eventually([&] {
       by = by == 30 ? -30 : 30;
-      move(at);
+      move(place.second);
       // In a person's time: a click and Ctrl within one frame would be a click with Ctrl.
       xdotool("mousedown 1 sleep 0.1 mousemove_relative -- " + std::to_string(by) +
               " 0 sleep 0.1 mouseup 1 sleep 0.1");
