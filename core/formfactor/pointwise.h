@@ -1,9 +1,5 @@
 // Form factors at points: K_vq is the Lambert factor of receiver point v and patch q (exact where q emits
 // much, else FactorPolygon::quick) times the share of the patch that v sees, whoever finds that out.
-//
-// On a refined mesh columns of patches that do not emit are interpolated over blocks of receivers
-// (receiver_blocks.h) wherever nine entries are those of a smooth function: within 0.04 % (RMS) of rows,
-// whose entries are computed one by one.
 #pragma once
 
 #include <array>
@@ -15,7 +11,6 @@
 #include "base/cancel.h"
 #include "formfactor/methods.h"
 #include "formfactor/patch_polygons.h"
-#include "formfactor/receiver_blocks.h"
 
 namespace unshot {
 
@@ -51,30 +46,18 @@ class Pointwise final : public FormFactorMethod {
   std::string note() const override { return visibility_ ? visibility_->note() : std::string(); }
 
  private:
-  // How much of a patch a receiver sees.
-  enum class Sight : std::uint8_t { kUnknown, kInterpolated, kNothing, kPart, kAll };
-  struct Rectangle {
-    std::uint32_t i0, i1, j0, j1;
-  };
-
   // Views that look at a patch together.
   struct Looks {
     static constexpr std::size_t kMost = 16;
     std::array<const ReceiverView*, kMost> views;
-    std::array<std::uint32_t, kMost> numbers;  // the caller's
-    std::array<double, kMost> unoccluded;      // weight times Lambert factor
+    std::array<std::uint32_t, kMost> receivers;
+    std::array<double, kMost> unoccluded;  // weight times Lambert factor
     std::size_t count = 0;
   };
 
   double factor(std::uint32_t v, std::uint32_t q);
   double lambert(const ReceiverView& from, std::uint32_t q);
-  template <class F>
-  void look(Looks& looks, const ReceiverView& from, std::uint32_t number, std::uint32_t q, F&& take);
-  template <class F>
-  void decide(Looks& looks, std::uint32_t q, F&& take);
-  void fillOneByOne(std::span<const std::uint32_t> vertices, std::uint32_t q, Column& column);
-  void fillBlock(const ReceiverBlock& block, const Rectangle& part, std::uint32_t q, Column& column);
-  void fillExactly(std::span<const std::uint32_t> vertices, std::uint32_t q, Column& column);
+  void decide(Looks& looks, std::uint32_t q);
   double escapeOf(std::uint32_t q);
   double escapeAlongRows(std::uint32_t q);
   void groupShares();
@@ -87,12 +70,9 @@ class Pointwise final : public FormFactorMethod {
   // emit little or nothing need not be.
   std::vector<char> exact_;
   std::vector<glm::dvec3> scratch_;
-  std::vector<std::uint32_t> wanted_;
   std::vector<double> sums_;
   std::vector<PatchShare> by_patch_;
   std::vector<std::uint32_t> share_start_;
-  ReceiverBlocks blocks_;           // where columns are interpolated
-  std::vector<Sight> sight_;        // of the column that is being filled, per entry
   std::vector<double> row_escape_;  // per receiver; below 0: not known yet
 };
 

@@ -4,10 +4,11 @@
 // As many rays as the patch is wide as seen from the point: one for a distant patch, for the error of the
 // mesh hides what more would show; each weighs by its own kernel, and those that end below the point's
 // horizon are left out. Patches with a good share of the scene's emission are looked at from end to end:
-// where sixteen rays agree the exact factor counts whole or not at all, else it is the penumbra, with 64
-// rays. Of an emitter that is wider than it is away, most samples lie where it hardly counts: where one is
-// hidden it is taken apart until each part is all visible, all hidden, small as seen from the point or brings
-// little, and each part has five rays and an exact factor of its own.
+// where eight rays agree (sixteen, to what is no quadrilateral) the exact factor counts whole or not at all,
+// else it is the penumbra, with 25 rays and the edges of the shadow found between them. Of an emitter that is
+// wider than it is away, most samples lie where it hardly counts: where one is hidden it is taken apart until
+// each part is all visible, all hidden, small as seen from the point or brings little, and each part has five
+// rays and an exact factor of its own.
 //
 // Known error: occluders and openings that slip between the rays (0.1 rad for an emitter taken apart); a
 // shadow's edge lies where the sample of a patch says, a radius of the patch beside the truth at most.
@@ -17,6 +18,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <span>
 
 #include "base/cosine_direction.h"
@@ -42,6 +44,21 @@ constexpr double kPartLook = 0.2, kPartWidth = 0.12, kPartShare = 0.001;
 constexpr int kMostHalvings = 16;
 // What is looked at: the middle, and points this share of the way there from the corners.
 constexpr double kPartInset = 0.1;
+// Where rays to an emitter begin and end: so far from its edges, of the way across.
+constexpr double kRingInset = 0.02;
+// And where they go first, from corner to corner: near the corners, and in four other columns and rows.
+constexpr std::array<glm::dvec2, 8> kFirstLooks{{{kRingInset, kRingInset},
+                                                 {1 - kRingInset, kRingInset},
+                                                 {1 - kRingInset, 1 - kRingInset},
+                                                 {kRingInset, 1 - kRingInset},
+                                                 {0.36, 0.21},
+                                                 {0.79, 0.36},
+                                                 {0.64, 0.79},
+                                                 {0.21, 0.64}}};
+// Rows of rays to an emitter that is partly seen, as many in each, and how often the way between two of a row
+// is halved where one is hidden.
+constexpr std::size_t kRows = 5;
+constexpr int kHalvingsOfEdges = 3;
 // The levels of samples: 1, 4, 16, 64.
 constexpr std::size_t kLevels = 4;
 // How far from the corner towards the middle a ray goes that looks for a corner.
@@ -167,8 +184,113 @@ class ShadowRays final : public Visibility {
   }
 
   double emitterSeen(const ReceiverView& from, const glm::dvec3& eye, std::uint32_t q) {
-    const double few = share(from, eye, q, 2);
-    return few == 0 || few == 1 ? few : share(from, eye, q, kLevels - 1);
+    const std::span<const FactorPolygon> parts = polygons_->parts(q);
+    if (parts.size() != 1 || parts[0].corners().size() != 4) {
+      const double few = share(from, eye, q, 2);
+      return few == 0 || few == 1 ? few : share(from, eye, q, kLevels - 1);
+    }
+    const std::vector<glm::dvec3>& ring = parts[0].corners();
+    const std::optional<double> few = firstLook(from, eye, q, ring);
+    if (!few) return share(from, eye, q, 2);
+    return *few == 0 || *few == 1 ? *few : shareAcrossEdges(from, eye, q, ring);
+  }
+
+  static glm::dvec3 within(const std::vector<glm::dvec3>& ring, double u, double v) {
+    return glm::mix(glm::mix(ring[0], ring[1], u), glm::mix(ring[3], ring[2], u), v);
+  }
+
+  // The share of a quadrilateral that is visible: by a grid of rays and, between those of a row, the places
+  // where what is seen ends, found by halving. Rows are as long as a shadow with straight edges leaves them;
+  // they run the way that crosses more of its edges.
+  double shareAcrossEdges(const ReceiverView& from, const glm::dvec3& eye, std::uint32_t q,
+                          const std::vector<glm::dvec3>& ring) {
+    constexpr std::size_t n = kRows;
+    const glm::dvec3& normal = mesh_.sides[mesh_.patch_side[q]].normal;
+    const auto along = [](std::size_t place, double further = 0) {
+      return kRingInset + (1 - 2 * kRingInset) * (static_cast<double>(place) + further) / (n - 1);
+    };
+    std::array<double, n * n> kernel{};
+    std::array<char, n * n> seen{};
+    std::array<glm::dvec3, SceneRays::kTogether> ends;
+    std::array<std::size_t, SceneRays::kTogether> number;
+    std::size_t count = 0;
+    const auto look = [&](auto&& found) {
+      const std::uint32_t hidden = occluded(eye, {ends.data(), count});
+      for (std::size_t k = 0; k < count; ++k) found(number[k], (hidden >> k & 1) == 0);
+      count = 0;
+    };
+    const auto mark = [&](std::size_t k, bool visible) { seen[k] = visible; };
+    for (std::size_t k = 0; k < n * n; ++k) {
+      const glm::dvec3 at = within(ring, along(k % n), along(k / n)), to = at - from.position;
+      const double square = glm::dot(to, to), near = glm::dot(to, from.normal), far = -glm::dot(to, normal);
+      if (near <= 0 || far <= 0) continue;
+      kernel[k] = near * far / (square * square);
+      number[count] = k;
+      ends[count++] = rays_.rays().lifted(at, normal);
+      if (count == ends.size()) look(mark);
+    }
+    look(mark);
+    const auto isEdge = [&](std::size_t k, std::size_t next) {
+      return kernel[k] > 0 && kernel[next] > 0 && seen[k] != seen[next];
+    };
+    std::size_t across_u = 0, across_v = 0;
+    for (std::size_t k = 0; k < n * n; ++k) {
+      across_u += k % n + 1 < n && isEdge(k, k + 1);
+      across_v += k / n + 1 < n && isEdge(k, k + n);
+    }
+    const std::size_t step = across_u >= across_v ? 1 : n, rows = n / step;
+    edges_.clear();
+    double all = 0, visible = 0;
+    for (std::size_t row = 0; row < n; ++row) {
+      const double weight = row == 0 || row + 1 == n ? 0.5 : 1;  // trapezoidal rule
+      for (std::size_t i = 0; i + 1 < n; ++i) {
+        const std::size_t k = row * rows + i * step, next = k + step;
+        const double whole = weight * (kernel[k] + kernel[next]) / 2;
+        all += whole;
+        if (isEdge(k, next)) {
+          edges_.push_back({k, weight});
+        } else if (kernel[k] > 0 ? seen[k] : seen[next]) {
+          visible += whole;
+        }
+      }
+    }
+    if (!(all > 0)) return share(from, eye, q, 2);
+    for (int halving = 0; halving < kHalvingsOfEdges; ++halving) {
+      const auto narrow = [&](std::size_t e, bool visible_there) {
+        ShadowEdge& edge = edges_[e];
+        (visible_there == static_cast<bool>(seen[edge.k]) ? edge.low : edge.high) = edge.middle();
+      };
+      for (std::size_t e = 0; e < edges_.size(); ++e) {
+        const std::size_t k = edges_[e].k;
+        const double u = along(k % n, step == 1 ? edges_[e].middle() : 0),
+                     v = along(k / n, step == 1 ? 0 : edges_[e].middle());
+        number[count] = e;
+        ends[count++] = rays_.rays().lifted(within(ring, u, v), normal);
+        if (count == ends.size()) look(narrow);
+      }
+      look(narrow);
+    }
+    for (const ShadowEdge& edge : edges_) {
+      const double t = edge.middle(), a = kernel[edge.k], b = kernel[edge.k + step];
+      const double before = t * (a + t * (b - a) / 2);
+      visible += edge.weight * (seen[edge.k] ? before : (a + b) / 2 - before);
+    }
+    return std::clamp(visible / all, 0.0, 1.0);
+  }
+
+  // The share of kFirstLooks that is visible; nothing where all are below the horizon.
+  std::optional<double> firstLook(const ReceiverView& from, const glm::dvec3& eye, std::uint32_t q,
+                                  const std::vector<glm::dvec3>& ring) const {
+    const glm::dvec3& normal = mesh_.sides[mesh_.patch_side[q]].normal;
+    std::array<glm::dvec3, kFirstLooks.size()> ends;
+    std::size_t count = 0;
+    for (const glm::dvec2& at : kFirstLooks) {
+      const glm::dvec3 end = within(ring, at.x, at.y);
+      if (glm::dot(end - from.position, from.normal) > 0) ends[count++] = rays_.rays().lifted(end, normal);
+    }
+    if (count == 0) return std::nullopt;
+    const std::uint32_t hidden = occluded(eye, {ends.data(), count});
+    return 1 - std::popcount(hidden) / static_cast<double>(count);
   }
 
   double seenInParts(const ReceiverView& from, const glm::dvec3& eye, std::uint32_t q) {
@@ -249,6 +371,14 @@ class ShadowRays final : public Visibility {
   std::uint64_t seed_;
   std::vector<char> large_;  // one per patch: it emits so much that the edges of its shadows show
   std::vector<std::array<std::vector<glm::dvec3>, kLevels>> samples_;
+  // Where what is seen along a row of an emitter ends, or begins.
+  struct ShadowEdge {
+    std::size_t k;             // between place k and the next of the row
+    double weight;             // of the row
+    double low = 0, high = 1;  // of the way there
+    double middle() const { return (low + high) / 2; }
+  };
+  std::vector<ShadowEdge> edges_;
   std::vector<glm::dvec3> scratch_;
 };
 

@@ -159,6 +159,17 @@ double elementsOf(const Mesh& mesh, const Surface& s, double size, bool paired) 
   return litSides(s) * std::max(1.0, cells.x * cells.y * s.area / (s.extent.x * s.extent.y));
 }
 
+// Where paired: surfaces that emit and are hardly larger than one of so many elements of the whole scene are
+// one patch. What emits is known exactly wherever it arrives, and each patch of it takes rays of its own.
+constexpr double kSmallLamps = 160;
+constexpr double kHardlyLarger = 1.5;  // along each side
+
+bool isSmallLamp(const Mesh& mesh, const Surface& s) {
+  const double longest = kHardlyLarger * std::sqrt(mesh.lit_area / kSmallLamps);
+  return mesh.materials[s.material].emission != glm::dvec3(0.0) &&
+         std::max(s.extent.x, s.extent.y) <= longest;
+}
+
 using Contacts = std::vector<std::vector<ContactSegment>>;
 
 void gridAll(Mesh& mesh, const std::vector<double>& sizes, bool paired, const Contacts& contacts,
@@ -186,7 +197,9 @@ void gridAll(Mesh& mesh, const std::vector<double>& sizes, bool paired, const Co
     cancel.report(static_cast<double>(s) / static_cast<double>(mesh.surfaces.size()));
     if (!isLit(surface)) continue;
     const glm::uvec2 cells = cellsOf(mesh, surface, sizes[s], paired);
-    gridSurface(mesh, s, cells.x, cells.y, patch_cells, paired, contacts[s], tolerance, cancel);
+    const std::uint32_t own_cells =
+        paired && isSmallLamp(mesh, surface) ? std::max({cells.x, cells.y, patch_cells}) : patch_cells;
+    gridSurface(mesh, s, cells.x, cells.y, own_cells, paired, contacts[s], tolerance, cancel);
   }
 }
 

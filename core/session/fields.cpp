@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <utility>
+
+#include "session/linear_fit.h"
 
 namespace unshot {
 namespace {
@@ -48,6 +51,7 @@ MeshField makeField(const Mesh& mesh, const Receivers& receivers, const std::vec
   std::vector<glm::dvec3> shown;
   shown.reserve(receivers.shownCount());
   for (std::uint32_t v = 0; v < receivers.shownCount(); ++v) shown.push_back(receivers.shown(v, values));
+  shown = fitBetween(mesh, std::move(shown));
   return {{shown.begin(), shown.end()}, meanOverElements(mesh, shown)};
 }
 

@@ -24,7 +24,7 @@ constexpr double kAreaMargin = 1e-9;
 // Of the error asked for: how far light in the middle of a part may be from what interpolation makes of it,
 // over the mean. Few parts are as wrong as that, and few of their points: on the Cornell box ten times the
 // error asked for leave direct light as wrong as half of it.
-constexpr double kWorst = 10;
+constexpr double kWorst = 18;
 // Of that: what an emitter brings at least to be looked for behind others.
 constexpr double kNegligible = 0.02;
 // Emitting patches (of the uniform mesh) looked at, over all points: some seconds here, and about as long or,

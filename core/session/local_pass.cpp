@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "base/clock.h"
 #include "formfactor/piece_polygons.h"
@@ -25,6 +27,23 @@ std::vector<glm::dvec3> placesOf(const Receivers& receivers, const Range& range)
     out.push_back(views.empty() ? glm::dvec3(0.0) : views[0].position);
   }
   return out;
+}
+
+// Times SceneRays::lift: heights that rays tell from none.
+constexpr double kTold = 10;
+
+// Where to look for the polygon: its centre or, where that is below the view's horizon, a place half as high
+// as its highest corner; nothing where that is no height.
+std::optional<glm::dvec3> placeAbove(const FactorPolygon& polygon, const ReceiverView& view, double lift) {
+  const auto height = [&](const glm::dvec3& p) { return glm::dot(p - view.position, view.normal); };
+  const glm::dvec3& centre = polygon.centre();
+  const double low = height(centre);
+  if (low > 0) return centre;
+  const glm::dvec3* top = &centre;
+  for (const glm::dvec3& corner : polygon.corners()) top = height(corner) > height(*top) ? &corner : top;
+  const double high = height(*top);
+  if (high < kTold * lift) return std::nullopt;
+  return glm::mix(centre, *top, (high / 2 - low) / (high - low));
 }
 
 }  // namespace
@@ -57,18 +76,22 @@ void LocalPass::makeGroups() {
   });
 }
 
-void LocalPass::begin(const RadiosityState& state, const std::vector<glm::vec3>& element_irradiance) {
+void LocalPass::begin(const RadiosityState& state, const MeshField& irradiance) {
   element_light_.resize(mesh_.element_count);
   group_light_.assign(groups_.size(), glm::dvec3(0.0));
   std::vector<double> area(groups_.size(), 0.0);
   for (std::uint32_t e = 0; e < mesh_.element_count; ++e) {
     const std::uint32_t group = mesh_.base ? mesh_.element_from_base[e] : e;
-    element_light_[e] = state.reflectance()[mesh_.element_patch[e]] * glm::dvec3(element_irradiance[e]);
+    element_light_[e] = state.reflectance()[mesh_.element_patch[e]] * glm::dvec3(irradiance.elements[e]);
     group_light_[group] += mesh_.element_area[e] * element_light_[e];
     area[group] += mesh_.element_area[e];
   }
   for (std::size_t g = 0; g < groups_.size(); ++g) group_light_[g] /= std::max(area[g], 1e-300);
   patch_light_ = state.shot();
+  std::vector<glm::dvec3> light(mesh_.vertices.size());
+  for (std::size_t v = 0; v < light.size(); ++v)
+    light[v] = receivers_.reflectance[v] * glm::dvec3(irradiance.vertices[v]);
+  slopes_ = ElementSlopes(mesh_, light);
   sum_.assign(receivers_.size(), glm::dvec3(0.0));
   next_ = 0;
 }
@@ -119,24 +142,34 @@ glm::dvec3 LocalPass::gather(const ReceiverView& view, std::uint32_t q, bool& ne
     }
     count = 0;
   };
+  const auto factorOf = [&](const Tile& tile) {
+    return tile.polygon.quick(view.position, view.normal, scratch_);
+  };
   const auto add = [&](const Tile& tile, const glm::dvec3& light) {
-    const double factor = tile.polygon.quick(view.position, view.normal, scratch_);
-    if (factor <= 0) return;
-    const glm::dvec3& centre = tile.polygon.centre();
-    if (!rays_ || glm::dot(centre - view.position, view.normal) <= 0) {
-      sum += factor * light;
+    if (!rays_) {
+      sum += light;
       return;
     }
-    ends[count] = rays_->rays().lifted(centre, normal);
-    lights[count++] = factor * light;
+    const std::optional<glm::dvec3> place = placeAbove(tile.polygon, view, rays_->rays().lift());
+    if (!place) return;
+    ends[count] = rays_->rays().lifted(*place, normal);
+    lights[count++] = light;
     if (count == ends.size()) decide();
   };
   for (const std::uint32_t g : groups_of_patch_[q]) {
     const Group& group = groups_[g];
     if (glm::distance(view.position, group.middle) > kNear * group.radius) {
-      for (const Tile& tile : group.whole) add(tile, group_light_[g]);
+      for (const Tile& tile : group.whole) {
+        const double factor = factorOf(tile);
+        if (factor > 0) add(tile, factor * group_light_[g]);
+      }
     } else {
-      for (const Tile& tile : group.parts) add(tile, element_light_[tile.element]);
+      for (const Tile& tile : group.parts) {
+        const double factor = factorOf(tile);
+        if (factor <= 0) continue;
+        const glm::dvec3 more = slopes_.excess(view, tile.element, tile.polygon.corners(), factor, scratch_);
+        add(tile, glm::max(factor * element_light_[tile.element] + more, glm::dvec3(0.0)));
+      }
     }
   }
   decide();

@@ -1,7 +1,7 @@
 // The local pass: one more application of the operator, nearer to the truth than the solution it starts from.
 // What a receiver has from patches near to it is gathered again from their elements, each with its own
-// radiosity and its own visibility, where the solve has one radiosity and one look for the whole patch.
-// Farther away that makes no difference.
+// radiosity, which changes along it (element_slopes.h), and its own visibility, where the solve has one
+// radiosity and one look for the whole patch. Farther away that makes no difference.
 #pragma once
 
 #include <memory>
@@ -12,6 +12,8 @@
 #include "formfactor/transport.h"
 #include "mesh/mesh.h"
 #include "mesh/mesh_rays.h"
+#include "session/element_slopes.h"
+#include "session/snapshot.h"
 #include "solver/state.h"
 
 namespace unshot {
@@ -22,8 +24,8 @@ class LocalPass {
   /// two points.
   LocalPass(const Mesh& mesh, const Receivers& receivers, bool occlusion);
 
-  /// Starts anew, from the present state and `element_irradiance`, H of each element [W/m^2].
-  void begin(const RadiosityState& state, const std::vector<glm::vec3>& element_irradiance);
+  /// Starts anew, from the present state and `irradiance`, H at the vertices and of each element [W/m^2].
+  void begin(const RadiosityState& state, const MeshField& irradiance);
   bool running() const { return next_ < mesh_.patch_count; }
   /// Goes on for some milliseconds, along columns that are kept; what is near along others stays as it is.
   void advance(Transport& transport);
@@ -31,6 +33,8 @@ class LocalPass {
   const std::vector<glm::dvec3>& irradiance() const { return irradiance_; }
   /// One came to its end with this, as irradiance() says (or none, where it is empty).
   void restore(std::vector<glm::dvec3> irradiance) { irradiance_ = std::move(irradiance); }
+  /// The pass under way, if there is one, comes to no end.
+  void abandon() { next_ = kNone; }
   /// None has come to its end.
   void forget() { irradiance_.clear(); }
 
@@ -59,6 +63,7 @@ class LocalPass {
   std::vector<glm::dvec3> places_;  // of the receivers from first_receiver_ on
   PointTree tree_;
   std::vector<glm::dvec3> element_light_, group_light_, patch_light_;  // of the pass that is running
+  ElementSlopes slopes_;                                               // and of its light
   std::vector<glm::dvec3> sum_, irradiance_;
   std::vector<glm::dvec3> scratch_;
   std::uint32_t next_ = kNone;

@@ -20,11 +20,11 @@ namespace {
 
 // Elements of the uniform mesh that is refined, for an error of 1 %: on the Cornell box the whole error then
 // is about as large (unshot_bench --only methods).
-constexpr double kBaseElements = 2'500;
+constexpr double kBaseElements = 1'700;
 // The error falls with so much of a power of their number.
 constexpr double kOrder = 0.75;
 // Beyond, time grows with the square for little.
-constexpr double kFewestBase = 100, kMostBase = 10'000;
+constexpr double kFewestBase = 160, kMostBase = 10'000;
 // And so many for each lit side: as many receivers look at patches in any case, and near large ones that
 // takes longer. On teapot_box (10,062 sides), --error 0.05: with it 2 s and 4.1 %, without 15 s and 5.8 %.
 constexpr double kForSides = 0.1;

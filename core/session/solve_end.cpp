@@ -14,6 +14,8 @@ constexpr double kSolverShare = 0.4;
 constexpr double kLittleUnshot = 0.25;
 // Of the power that is accounted for: rounding leaves 1e-9 at most (10,000 scenes of the property tests).
 constexpr double kMostDrift = 1e-6;
+// Of the local pass: beside an edge one wall's light depends on the other's there.
+constexpr int kLocalPasses = 2;
 // What asks for a word is surely above the error asked for, and by estimate so many times as large.
 constexpr double kFarAbove = 3;
 
@@ -37,17 +39,31 @@ void Solve::Impl::finish(std::string why) {
   if (measures.solverBound() == kNoBound && !isLight(*state)) return failWithoutSolution();
   if (!local_pass) return stop(SolveState::kConverged, std::move(why));
   finished_by = std::move(why);
-  local_pass->begin(*state, makeField(*mesh, transport->receivers(), state->irradiance()).elements);
+  local_passes_left = kLocalPasses;
+  local_pass->abandon();
+  last_sweeps = {};
+  if (!options.max_shots) last_sweeps.begin();
 }
 
-// Goes on with the local pass, which brings the good end nearer to the truth but is no condition of it.
+// Goes on with the last sweeps and the local pass, which bring the good end nearer to the truth but are no
+// condition of it.
 void Solve::Impl::sharpen() {
-  local_pass->advance(*transport);
-  const SolverBounds reached_with = measures.bounds;  // of the same state, and sharpened
+  SolverBounds reached_with = measures.bounds;  // sharpened
+  if (last_sweeps.running()) {
+    measures.shots += last_sweeps.advance(*state, *transport);
+    if (!last_sweeps.running()) reached_with = budget->sharpen();
+  } else {
+    if (!local_pass->running()) {
+      const bool first = local_passes_left-- == kLocalPasses;
+      local_pass->begin(
+          *state, makeField(*mesh, transport->receivers(), first ? state->irradiance() : shownIrradiance()));
+    }
+    local_pass->advance(*transport);
+  }
   measure();
-  measures.bounds = SolverBounds::tighter(measures.bounds, reached_with);
+  if (!last_sweeps.running()) measures.bounds = SolverBounds::tighter(measures.bounds, reached_with);
   const bool out_of_time = options.max_seconds && measures.seconds >= *options.max_seconds;
-  if (!local_pass->running() || out_of_time)
+  if ((local_passes_left == 0 && !local_pass->running()) || out_of_time)
     stop(SolveState::kConverged, *std::exchange(finished_by, std::nullopt));
 }
 

@@ -18,6 +18,7 @@
 #include "session/error_budget.h"
 #include "session/fields.h"
 #include "session/known_solution.h"
+#include "session/last_sweeps.h"
 #include "session/local_pass.h"
 #include "session/saved_solve.h"
 #include "session/solve.h"
@@ -75,7 +76,9 @@ struct Solve::Impl {
   SharedFields shared;
   StagnationWatch stagnation;
   std::unique_ptr<LocalPass> local_pass;   // where the mesh is refined
-  std::optional<std::string> finished_by;  // what ends the solve once the local pass is through
+  std::optional<std::string> finished_by;  // what ends the solve once what follows is through
+  LastSweeps last_sweeps;
+  int local_passes_left = 0;
 
   Impl(Scene scene_in, SolveOptions options_in)
       : options(std::move(options_in)), scene(std::move(scene_in)) {}

@@ -47,14 +47,14 @@ TEST(FollowsLight, HasAboutTheErrorAskedFor) {
   }
 }
 
-// With a third of the elements, and far fewer patches, it is within twice the error of a uniform mesh.
+// With a third of the elements, and far fewer patches, it is nearly as near as a uniform mesh.
 TEST(FollowsLight, IsNearlyAsNearAsAUniformMeshOfThreeTimesTheElements) {
   const auto adapted = solved(publishedCornellBox(), follows(0.02));
   SolveOptions uniform = follows(adapted->solverTarget());
   uniform.elements = 3 * adapted->mesh().element_count;
   const auto even = solved(publishedCornellBox(), uniform);
-  EXPECT_LT(3 * adapted->mesh().patch_count, even->mesh().patch_count);
-  EXPECT_LT(errorOf(cornellTruth(), adapted->snapshot()), 2 * errorOf(cornellTruth(), even->snapshot()));
+  EXPECT_LT(1.5 * adapted->mesh().patch_count, even->mesh().patch_count);
+  EXPECT_LT(errorOf(cornellTruth(), adapted->snapshot()), 1.5 * errorOf(cornellTruth(), even->snapshot()));
 }
 
 // The last stage: what the local pass makes of the solution is nearer to the truth than the solution.

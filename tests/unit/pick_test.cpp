@@ -168,7 +168,7 @@ TEST(Pick, SaysWhatThePlanDecided) {
 TEST(Pick, SaysWhereAMeshThatFollowsTheLightIsFine) {
   SolveOptions options;
   options.form_factors = "rays";
-  options.error = 0.03;
+  options.error = 0.01;
   const Solve solve(blockOnFloor(0.4), options, {});
   const Mesh& mesh = solve.mesh();
   ASSERT_TRUE(mesh.base);

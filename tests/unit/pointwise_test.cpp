@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <numbers>
 #include <set>
+#include <span>
 
 #include "formfactor/patch_polygons.h"
 #include "formfactor/polygon_factor.h"
+#include "formfactor/shadow_rays.h"
 #include "mesh/build.h"
 #include "support/solving.h"
 #include "support/test_scenes.h"
@@ -152,6 +156,62 @@ TEST_P(PointwiseFactors, AreOfThePartOfALampThatAPlateLeaves) {
   measured("worst error in the penumbra, of the lamp's whole factor", worst);
   // Half a step from a place to the next, and what the kernel varies over it.
   EXPECT_LT(worst, 1.0 / GetParam().places);
+}
+
+// A lamp that is one patch, and a plate's corner turned against its edges: rows of rays and what is found
+// between them, against the lamp clipped by the shadow's straight edges.
+TEST(ShadowEdges, OfALampAreFoundBetweenRays) {
+  for (const double turn : {0.0, 0.5 * std::numbers::pi, 0.3, 1.1}) {
+    SceneBuilder b;
+    const auto floor = b.material("floor", glm::dvec3(0.5)), plate = b.material("plate", glm::dvec3(0.0));
+    const auto lamp = b.material("lamp", glm::dvec3(0.0), glm::dvec3(1.0));
+    const glm::dvec3 across(std::cos(turn), 0, std::sin(turn)), along(-std::sin(turn), 0, std::cos(turn));
+    b.quad(floor, {-2, 0, -2}, {0, 0, 4}, {4, 0, 0});
+    b.quad(plate, glm::dvec3(0, 1, 0) - 5.0 * along, 6.0 * across, 10.0 * along);
+    b.quad(lamp, {-0.5, 2, -0.5}, {1, 0, 0}, {0, 0, 1});
+    const Mesh mesh = buildMesh(b.finish(), {40, {}, false, true});
+    std::uint32_t q = kNone;
+    int emitting = 0;
+    for (std::uint32_t p = 0; p < mesh.patch_count; ++p) {
+      if (!mesh.emits(p) || mesh.sides[mesh.patch_side[p]].normal.y > 0) continue;
+      q = p;
+      ++emitting;
+    }
+    ASSERT_EQ(emitting, 1);
+    const auto polygons = std::make_shared<const PatchPolygons>(mesh);
+    const auto visibility = makeShadowRays(mesh, polygons, 1);
+    std::vector<glm::dvec3> scratch;
+    double worst = 0, last = -1, jump = 0;
+    // Across the shadow's edge, from all of the lamp to none of it.
+    for (double s = -0.9; s <= 0.9; s += 0.01) {
+      const glm::dvec3 p = s * across + 0.1 * along;
+      // The plate hides what lies beyond its edge as seen from p, at twice the height.
+      std::vector<glm::dvec3> ring;
+      const glm::dvec3 corners[] = {{-0.5, 2, -0.5}, {0.5, 2, -0.5}, {0.5, 2, 0.5}, {-0.5, 2, 0.5}};
+      const auto beyond = [&](const glm::dvec3& c) { return glm::dot(c, across) + s; };
+      for (int k = 0; k < 4; ++k) {
+        const glm::dvec3 &one = corners[k], &two = corners[(k + 1) % 4];
+        const double d = beyond(one), e = beyond(two);
+        if (d <= 0) ring.push_back(one);
+        if ((d < 0 && e > 0) || (d > 0 && e < 0)) ring.push_back(one + d / (d - e) * (two - one));
+      }
+      const auto factorOf = [&](std::span<const glm::dvec3> of) {
+        return of.size() < 3 ? 0.0 : pointToPolygonFactor(p, {0, 1, 0}, of, scratch);
+      };
+      const double exact = factorOf(ring) / factorOf(corners);
+      std::uint32_t side = 0;
+      while (mesh.sides[side].normal.y < 0.5 || mesh.sides[side].reflectance == glm::dvec3(0.0)) ++side;
+      const double found = visibility->seen({p - mesh.frame_origin, {0, 1, 0}, 1, side, 0}, q);
+      worst = std::max(worst, std::abs(found - exact));
+      if (last >= 0) jump = std::max(jump, std::abs(found - last));
+      last = found;
+    }
+    measured("turned by " + std::to_string(turn) + ": worst error of the share", worst);
+    measured("largest step in a hundredth of the way", jump);
+    // A row's inset, halvings of a quarter of it, and straight pieces of a slanting edge's corner.
+    EXPECT_LT(worst, 0.045);
+    EXPECT_LT(jump, 0.06);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, PointwiseFactors,

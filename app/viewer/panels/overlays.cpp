@@ -132,7 +132,7 @@ void buildOverlays(Viewer& viewer, int scene_width, float bottom, bool notices, 
     buildMarks(viewer, scene_width);
     buildRaceLabels(viewer, scene_width);
   }
-  if (tasksWindow(viewer, middle)) {
+  if (notices && tasksWindow(viewer, middle)) {
     // What else there is to say is said once it is done.
   } else if (framing && state.facts) {
     line("framing", "looking for a good view \u2026", {middle, height / 2}, {0.5f, 0.5f});

@@ -17,7 +17,8 @@ int leastWindowWithPanel(double scale);
 void buildSidePanel(Viewer& viewer, int left);
 
 /// Messages, help and what is being loaded, over the scene's `scene_width` pixels, down to y = `bottom`.
-/// Without `notices` the lines are left out that tell of files written and the like: of no use in a picture.
+/// Without `notices` what is under way is left out, and the lines that tell of files written and the like: of
+/// no use in a picture.
 void buildOverlays(Viewer& viewer, int scene_width, float bottom, bool notices, bool framing);
 
 }  // namespace unshot
