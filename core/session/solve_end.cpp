@@ -33,16 +33,16 @@ void Solve::Impl::fail(ErrorKind kind, std::string why, std::string advice) {
   stop(SolveState::kFailed, std::move(why));
 }
 
-// Converged, but for the local pass.
+// Converged, but for what follows where the mesh was made for the error asked for.
 void Solve::Impl::finish(std::string why) {
   // A bound there is only where light dies out; then what lies below zero is the error that it allows.
   if (measures.solverBound() == kNoBound && !isLight(*state)) return failWithoutSolution();
-  if (!local_pass) return stop(SolveState::kConverged, std::move(why));
-  finished_by = std::move(why);
-  local_passes_left = kLocalPasses;
-  local_pass->abandon();
   last_sweeps = {};
-  if (!options.max_shots) last_sweeps.begin();
+  if (whole_error && !options.max_shots && !options.bounces) last_sweeps.begin();
+  local_passes_left = local_pass ? kLocalPasses : 0;
+  if (local_pass) local_pass->abandon();
+  if (!last_sweeps.running() && local_passes_left == 0) return stop(SolveState::kConverged, std::move(why));
+  finished_by = std::move(why);
 }
 
 // Goes on with the last sweeps and the local pass, which bring the good end nearer to the truth but are no
@@ -52,7 +52,7 @@ void Solve::Impl::sharpen() {
   if (last_sweeps.running()) {
     measures.shots += last_sweeps.advance(*state, *transport);
     if (!last_sweeps.running()) reached_with = budget->sharpen();
-  } else {
+  } else if (local_pass) {
     if (!local_pass->running()) {
       const bool first = local_passes_left-- == kLocalPasses;
       local_pass->begin(
@@ -63,7 +63,8 @@ void Solve::Impl::sharpen() {
   measure();
   if (!last_sweeps.running()) measures.bounds = SolverBounds::tighter(measures.bounds, reached_with);
   const bool out_of_time = options.max_seconds && measures.seconds >= *options.max_seconds;
-  if ((local_passes_left == 0 && !local_pass->running()) || out_of_time)
+  const bool passing = local_pass && local_pass->running();
+  if ((!last_sweeps.running() && local_passes_left == 0 && !passing) || out_of_time)
     stop(SolveState::kConverged, *std::exchange(finished_by, std::nullopt));
 }
 
