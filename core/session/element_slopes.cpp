@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "formfactor/polygon_factor.h"
+#include "mesh/triangle_slope.h"
 
 namespace unshot {
 namespace {
@@ -21,23 +22,16 @@ ElementSlopes::ElementSlopes(const Mesh& mesh, std::span<const glm::dvec3> light
   std::vector<double> area(mesh.element_count, 0.0);
   double sum = 0, whole = 0;
   for (std::size_t t = 0; t < mesh.triangle_element.size(); ++t) {
+    const TriangleSlope triangle(mesh, t);
     const std::uint32_t e = mesh.triangle_element[t];
-    const std::uint32_t* corner = &mesh.triangle_vertices[3 * t];
-    const glm::dvec3 origin(mesh.vertices[corner[0]].position);
-    const glm::dvec3 u = glm::dvec3(mesh.vertices[corner[1]].position) - origin,
-                     v = glm::dvec3(mesh.vertices[corner[2]].position) - origin, n = glm::cross(u, v);
-    const double square = glm::dot(n, n), size = std::sqrt(square) / 2;
-    if (!(size > 0)) continue;
-    // Times the area: what grows by 1 from the origin to u or v, and stays along the other.
-    const glm::dvec3 along_u = size / square * glm::cross(v, n), along_v = size / square * glm::cross(n, u);
-    const glm::dvec3 &at = light[corner[0]], to_u = light[corner[1]] - at, to_v = light[corner[2]] - at;
     Slope& slope = slopes_[e];
-    slope.centre += size * (origin + (u + v) / 3.0);
-    for (int c = 0; c < 3; ++c) slope.gradient[c] += to_u[c] * along_u + to_v[c] * along_v;
-    area[e] += size;
-    whole += size;
-    const glm::dvec3 mean = at + (to_u + to_v) / 3.0;
-    sum += size * std::max({mean.x, mean.y, mean.z});
+    slope.centre += triangle.area * triangle.middle;
+    for (int c = 0; c < 3; ++c) slope.gradient[c] += triangle.gradient(light, c);
+    area[e] += triangle.area;
+    whole += triangle.area;
+    const std::uint32_t* v = triangle.corner;
+    const glm::dvec3 mean = (light[v[0]] + light[v[1]] + light[v[2]]) / 3.0;
+    sum += triangle.area * std::max({mean.x, mean.y, mean.z});
   }
   for (std::uint32_t e = 0; e < mesh.element_count; ++e) {
     if (!(area[e] > 0)) continue;

@@ -3,6 +3,8 @@
 #include <utility>
 #include <vector>
 
+#include "solver/modes.h"
+
 namespace unshot {
 
 std::size_t LastSweeps::advance(RadiosityState& state, Transport& transport) {
@@ -22,8 +24,12 @@ std::size_t LastSweeps::advance(RadiosityState& state, Transport& transport) {
   }
   const std::size_t used = product_.advance(transport);
   if (!product_.running()) {
-    minimal_.apply(state, transport, std::move(product_.flow()));
     --left_;
+    try {
+      minimal_.apply(state, transport, std::move(product_.flow()));
+    } catch (const IterationFailure&) {
+      left_ = 0;  // the state is as it was, and that was good enough
+    }
   }
   return used;
 }

@@ -2,59 +2,40 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "mesh/triangle_slope.h"
 
 namespace unshot {
 namespace {
 
-// Of the difference between two vertices: how far the middle between them may be from their mean. Beyond, it
-// is not a bend that the mesh resolves but a step.
+// Of the larger of two values: how far the middle between them may be from their mean. Gradients of slivers
+// may lead anywhere; beside a step from nothing to light the bend is a sixteenth of it.
 constexpr double kMostBend = 0.25;
 
 using Gradient = std::array<glm::dvec3, 3>;  // one vector a channel
-
-// Of each vertex: the area-weighted mean over its triangles of the gradient of what is interpolated.
-std::vector<Gradient> recoveredGradients(const Mesh& mesh, const std::vector<glm::dvec3>& values,
-                                         const std::vector<double>& area) {
-  std::vector<Gradient> out(values.size());
-  for (std::size_t t = 0; t < mesh.triangle_element.size(); ++t) {
-    const std::uint32_t* corner = &mesh.triangle_vertices[3 * t];
-    const glm::dvec3 origin(mesh.vertices[corner[0]].position);
-    const glm::dvec3 u = glm::dvec3(mesh.vertices[corner[1]].position) - origin,
-                     v = glm::dvec3(mesh.vertices[corner[2]].position) - origin, n = glm::cross(u, v);
-    const double square = glm::dot(n, n);
-    if (!(square > 0)) continue;
-    // What grows by 1 from the origin to u or v, and stays along the other; times the triangle's area.
-    const double half = 0.5 / std::sqrt(square);
-    const glm::dvec3 along_u = half * glm::cross(v, n), along_v = half * glm::cross(n, u);
-    const glm::dvec3 to_u = values[corner[1]] - values[corner[0]],
-                     to_v = values[corner[2]] - values[corner[0]];
-    for (int c = 0; c < 3; ++c) {
-      const glm::dvec3 gradient = to_u[c] * along_u + to_v[c] * along_v;
-      for (int k = 0; k < 3; ++k) out[corner[k]][c] += gradient;
-    }
-  }
-  for (std::size_t k = 0; k < out.size(); ++k) {
-    for (glm::dvec3& g : out[k]) g /= area[k] > 0 ? area[k] : 1;
-  }
-  return out;
-}
 
 }  // namespace
 
 std::vector<glm::dvec3> fitBetween(const Mesh& mesh, std::vector<glm::dvec3> values) {
   const std::size_t triangles = mesh.triangle_element.size();
-  std::vector<double> area(values.size(), 0.0), triangle_area(triangles);
+  std::vector<double> area(values.size(), 0.0), triangle_area;
+  triangle_area.reserve(triangles);
+  // The area-weighted mean over a vertex's triangles of the gradients of what is interpolated.
+  std::vector<Gradient> gradient(values.size());
   for (std::size_t t = 0; t < triangles; ++t) {
-    const std::uint32_t* corner = &mesh.triangle_vertices[3 * t];
-    const glm::dvec3 a(mesh.vertices[corner[0]].position), b(mesh.vertices[corner[1]].position),
-        c(mesh.vertices[corner[2]].position);
-    triangle_area[t] = glm::length(glm::cross(b - a, c - a)) / 2;
-    for (int k = 0; k < 3; ++k) area[corner[k]] += triangle_area[t];
+    const TriangleSlope triangle(mesh, t);
+    triangle_area.push_back(triangle.area);
+    for (int k = 0; k < 3; ++k) area[triangle.corner[k]] += triangle.area;
+    for (int c = 0; c < 3; ++c) {
+      const glm::dvec3 slope = triangle.gradient(values, c);
+      for (int k = 0; k < 3; ++k) gradient[triangle.corner[k]][c] += slope;
+    }
   }
-  const std::vector<Gradient> gradient = recoveredGradients(mesh, values, area);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    for (glm::dvec3& g : gradient[k]) g /= area[k] > 0 ? area[k] : 1;
+  }
   std::vector<glm::dvec3> shift(values.size(), glm::dvec3(0.0));
   for (std::size_t t = 0; t < triangles; ++t) {
     const std::uint32_t* corner = &mesh.triangle_vertices[3 * t];

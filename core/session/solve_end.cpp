@@ -48,10 +48,10 @@ void Solve::Impl::finish(std::string why) {
 // Goes on with the last sweeps and the local pass, which bring the good end nearer to the truth but are no
 // condition of it.
 void Solve::Impl::sharpen() {
-  SolverBounds reached_with = measures.bounds;  // sharpened
-  if (last_sweeps.running()) {
+  const bool sweeping = last_sweeps.running();
+  const SolverBounds reached_with = measures.bounds;  // sharpened
+  if (sweeping) {
     measures.shots += last_sweeps.advance(*state, *transport);
-    if (!last_sweeps.running()) reached_with = budget->sharpen();
   } else if (local_pass) {
     if (!local_pass->running()) {
       const bool first = local_passes_left-- == kLocalPasses;
@@ -61,10 +61,15 @@ void Solve::Impl::sharpen() {
     local_pass->advance(*transport);
   }
   measure();
-  if (!last_sweeps.running()) measures.bounds = SolverBounds::tighter(measures.bounds, reached_with);
   const bool out_of_time = options.max_seconds && measures.seconds >= *options.max_seconds;
-  const bool passing = local_pass && local_pass->running();
-  if ((!last_sweeps.running() && local_passes_left == 0 && !passing) || out_of_time)
+  // Sweeps change the state, and what bounds its error.
+  if (!sweeping) {
+    measures.bounds = SolverBounds::tighter(measures.bounds, reached_with);
+  } else if (!last_sweeps.running() || out_of_time) {
+    measures.bounds = budget->sharpen();
+  }
+  const bool passing = local_passes_left > 0 || (local_pass && local_pass->running());
+  if ((!last_sweeps.running() && !passing) || out_of_time)
     stop(SolveState::kConverged, *std::exchange(finished_by, std::nullopt));
 }
 
