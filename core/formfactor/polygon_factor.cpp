@@ -49,9 +49,9 @@ FactorPolygon::FactorPolygon(std::vector<glm::dvec3> corners) : corners_(std::mo
   if (size <= 0) return;
   normal_ = area / size;
   area_ = size;
-  const bool parallelogram =
+  parallelogram_ =
       n == 4 && glm::distance(corners_[1] - corners_[0], corners_[2] - corners_[3]) <= kAlike * radius_;
-  if (parallelogram) {
+  if (parallelogram_) {
     const double step = 0.5 / std::numbers::sqrt3;
     const glm::dvec3 u = step * (corners_[1] - corners_[0]), v = step * (corners_[3] - corners_[0]);
     for (const glm::dvec3& at : {centre_ + u + v, centre_ + u - v, centre_ - u + v, centre_ - u - v})

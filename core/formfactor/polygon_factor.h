@@ -25,6 +25,7 @@ class FactorPolygon {
   const glm::dvec3& normal() const { return normal_; }  ///< unit length
   double area() const { return area_; }                 ///< [m^2]
   double radius() const { return radius_; }             ///< of a sphere around the centre [m]
+  bool isParallelogram() const { return parallelogram_; }
 
   /// pointToPolygonFactor.
   double exact(const glm::dvec3& point, const glm::dvec3& normal, std::vector<glm::dvec3>& scratch) const {
@@ -49,6 +50,7 @@ class FactorPolygon {
   std::vector<glm::dvec3> corners_;
   glm::dvec3 centre_{0.0}, normal_{0.0};
   double area_ = 0, radius_ = 0;
+  bool parallelogram_ = false;
   std::vector<Sample> samples_;
 };
 

@@ -4,7 +4,7 @@
 // As many rays as the patch is wide as seen from the point: one for a distant patch, for the error of the
 // mesh hides what more would show; each weighs by its own kernel, and those that end below the point's
 // horizon are left out. Patches with a good share of the scene's emission are looked at from end to end:
-// where eight rays agree (sixteen, to what is no quadrilateral) the exact factor counts whole or not at all,
+// where eight rays agree (sixteen, to what is no parallelogram) the exact factor counts whole or not at all,
 // else it is the penumbra, with 25 rays and the edges of the shadow found between them. Of an emitter that is
 // wider than it is away, most samples lie where it hardly counts: where one is hidden it is taken apart until
 // each part is all visible, all hidden, small as seen from the point or brings little, and each part has five
@@ -185,7 +185,7 @@ class ShadowRays final : public Visibility {
 
   double emitterSeen(const ReceiverView& from, const glm::dvec3& eye, std::uint32_t q) {
     const std::span<const FactorPolygon> parts = polygons_->parts(q);
-    if (parts.size() != 1 || parts[0].corners().size() != 4) {
+    if (parts.size() != 1 || !parts[0].isParallelogram()) {
       const double few = share(from, eye, q, 2);
       return few == 0 || few == 1 ? few : share(from, eye, q, kLevels - 1);
     }
@@ -195,11 +195,12 @@ class ShadowRays final : public Visibility {
     return *few == 0 || *few == 1 ? *few : shareAcrossEdges(from, eye, q, ring);
   }
 
+  // A place on a parallelogram, from corner to corner.
   static glm::dvec3 within(const std::vector<glm::dvec3>& ring, double u, double v) {
-    return glm::mix(glm::mix(ring[0], ring[1], u), glm::mix(ring[3], ring[2], u), v);
+    return ring[0] + u * (ring[1] - ring[0]) + v * (ring[3] - ring[0]);
   }
 
-  // The share of a quadrilateral that is visible: by a grid of rays and, between those of a row, the places
+  // The share of a parallelogram that is visible: by a grid of rays and, between those of a row, the places
   // where what is seen ends, found by halving. Rows are as long as a shadow with straight edges leaves them;
   // they run the way that crosses more of its edges.
   double shareAcrossEdges(const ReceiverView& from, const glm::dvec3& eye, std::uint32_t q,

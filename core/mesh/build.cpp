@@ -159,15 +159,17 @@ double elementsOf(const Mesh& mesh, const Surface& s, double size, bool paired) 
   return litSides(s) * std::max(1.0, cells.x * cells.y * s.area / (s.extent.x * s.extent.y));
 }
 
-// Where paired: surfaces that emit and are hardly larger than one of so many elements of the whole scene are
-// one patch. What emits is known exactly wherever it arrives, and each patch of it takes rays of its own.
+// Where paired: rectangles that emit and are hardly larger than one of so many elements of the whole scene
+// are one patch. What emits is known exactly wherever it arrives, and each patch of it takes rays of its own.
+// Lamps of other outlines would be many polygons, whose shadows' edges nobody looks for.
 constexpr double kSmallLamps = 160;
-constexpr double kHardlyLarger = 1.5;  // along each side
+constexpr double kHardlyLarger = 1.5;    // along each side
+constexpr double kRectangle = 1 - 1e-9;  // of the chart's area
 
 bool isSmallLamp(const Mesh& mesh, const Surface& s) {
   const double longest = kHardlyLarger * std::sqrt(mesh.lit_area / kSmallLamps);
   return mesh.materials[s.material].emission != glm::dvec3(0.0) &&
-         std::max(s.extent.x, s.extent.y) <= longest;
+         std::max(s.extent.x, s.extent.y) <= longest && s.area >= kRectangle * s.extent.x * s.extent.y;
 }
 
 using Contacts = std::vector<std::vector<ContactSegment>>;

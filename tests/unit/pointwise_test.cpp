@@ -160,6 +160,9 @@ TEST_P(PointwiseFactors, AreOfThePartOfALampThatAPlateLeaves) {
 
 // A lamp that is one patch, and a plate's corner turned against its edges: rows of rays and what is found
 // between them, against the lamp clipped by the shadow's straight edges.
+class ShadowEdges : public testing::TestWithParam<double> {
+};  // how long one side of the lamp is, of the other
+
 TEST(ShadowEdges, OfALampAreFoundBetweenRays) {
   for (const double turn : {0.0, 0.5 * std::numbers::pi, 0.3, 1.1}) {
     SceneBuilder b;
@@ -169,7 +172,7 @@ TEST(ShadowEdges, OfALampAreFoundBetweenRays) {
     b.quad(floor, {-2, 0, -2}, {0, 0, 4}, {4, 0, 0});
     b.quad(plate, glm::dvec3(0, 1, 0) - 5.0 * along, 6.0 * across, 10.0 * along);
     b.quad(lamp, {-0.5, 2, -0.5}, {1, 0, 0}, {0, 0, 1});
-    const Mesh mesh = buildMesh(b.finish(), {40, {}, false, true});
+    const Mesh mesh = buildMesh(b.finish(), {1, {}, false, true});
     std::uint32_t q = kNone;
     int emitting = 0;
     for (std::uint32_t p = 0; p < mesh.patch_count; ++p) {
