@@ -53,7 +53,7 @@ void printTable(std::ostream& out, const CurveRecord& record) {
   for (const ModeCurve& curve : record.curves) {
     if (curve.points.empty()) continue;
     lines.push_back({curve.mode});
-    for (const Quantity& cost : {Quantity(busySecondsOf), Quantity(rowsOf)}) {
+    for (const PointQuantity& cost : {PointQuantity(busySecondsOf), PointQuantity(rowsOf)}) {
       const bool rows = lines.back().size() > 1;
       for (const double level : kErrorLevels) {
         const auto value = costToReach(curve.points, level, error.of, cost);

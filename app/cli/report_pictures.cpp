@@ -21,7 +21,7 @@ constexpr double kRowFractions[] = {0.05, 0.1, 0.25, 1};  // of all rows
 /// The costs at which pictures are taken: of busy time, or of rows.
 struct Stops {
   std::vector<double> costs;
-  Quantity cost;
+  PointQuantity cost;
 };
 
 /// The time in which the quickest mode comes down to 1 %, or as far as any comes.

@@ -85,7 +85,7 @@ std::string tableCsv(const CurveRecord& record) {
   for (const ModeCurve& curve : record.curves) {
     for (const ErrorMeasure& error : measuresOf(record)) {
       for (const double level : kErrorLevels) {
-        const auto cost = [&](const Quantity& of) {
+        const auto cost = [&](const PointQuantity& of) {
           return cell(costToReach(curve.points, level, error.of, of));
         };
         text += lineOf({curve.mode, std::string(error.key), shortest(level), cost(busySecondsOf),

@@ -35,7 +35,7 @@ Json reachedBy(const ModeCurve& curve, const CurveRecord& record) {
   Json out = Json::array();
   for (const ErrorMeasure& error : measuresOf(record)) {
     for (const double level : kErrorLevels) {
-      const auto cost = [&](const Quantity& of) {
+      const auto cost = [&](const PointQuantity& of) {
         return numberOrNull(costToReach(curve.points, level, error.of, of));
       };
       out.push_back({{"error", error.key},

@@ -74,8 +74,8 @@ std::optional<double> busySecondsOf(const CurvePoint& point) { return point.cpu_
 std::optional<double> rowsOf(const CurvePoint& point) { return static_cast<double>(point.rows); }
 std::optional<double> shotsOf(const CurvePoint& point) { return static_cast<double>(point.shots); }
 
-std::optional<double> costToReach(std::span<const CurvePoint> points, double level, const Quantity& error,
-                                  const Quantity& cost) {
+std::optional<double> costToReach(std::span<const CurvePoint> points, double level,
+                                  const PointQuantity& error, const PointQuantity& cost) {
   const CurvePoint* before = nullptr;
   for (const CurvePoint& point : points) {
     const std::optional<double> e = error(point), x = cost(point);
@@ -92,7 +92,7 @@ std::optional<double> costToReach(std::span<const CurvePoint> points, double lev
   return std::nullopt;
 }
 
-std::size_t pointAtCost(std::span<const CurvePoint> points, double cost, const Quantity& cost_of) {
+std::size_t pointAtCost(std::span<const CurvePoint> points, double cost, const PointQuantity& cost_of) {
   std::size_t at = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const std::optional<double> here = cost_of(points[k]);

@@ -70,7 +70,7 @@ struct ModeCurve {
 void takeMedians(ModeCurve& curve);
 
 /// What a point has of a quantity; nothing where it was not measured there.
-using Quantity = std::function<std::optional<double>(const CurvePoint&)>;
+using PointQuantity = std::function<std::optional<double>(const CurvePoint&)>;
 
 // Those that are asked for most.
 std::optional<double> solverErrorOf(const CurvePoint& point);
@@ -83,10 +83,10 @@ std::optional<double> shotsOf(const CurvePoint& point);
 /// The cost at which the error first comes down to `level`, between points as a straight line on log axes;
 /// but where it falls by more than half from a point to the next it falls at the latter. Nothing where it is
 /// not reached.
-std::optional<double> costToReach(std::span<const CurvePoint> points, double level, const Quantity& error,
-                                  const Quantity& cost);
+std::optional<double> costToReach(std::span<const CurvePoint> points, double level,
+                                  const PointQuantity& error, const PointQuantity& cost);
 
 /// The last point that does not cost more than `cost`; the first one where all do. `points` not empty.
-std::size_t pointAtCost(std::span<const CurvePoint> points, double cost, const Quantity& cost_of);
+std::size_t pointAtCost(std::span<const CurvePoint> points, double cost, const PointQuantity& cost_of);
 
 }  // namespace unshot

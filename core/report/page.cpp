@@ -92,7 +92,7 @@ std::string modeName(const std::string& mode) {
 struct CostCells {
   const CurveRecord& record;
   ErrorMeasure error;
-  Quantity cost;
+  PointQuantity cost;
   std::string (*text)(double);
   bool spread;
 

@@ -17,11 +17,11 @@ struct Entry {
 };
 
 /// The modes that come down to the level, cheapest first.
-std::vector<Entry> ranking(const CurveRecord& record, double level, const Quantity& cost) {
+std::vector<Entry> ranking(const CurveRecord& record, double level, const PointQuantity& cost) {
   const ErrorMeasure error = mainMeasure(record);
   std::vector<Entry> out;
   for (const ModeCurve& curve : record.curves) {
-    const auto of = [&](const Quantity& q) { return costToReach(curve.points, level, error.of, q); };
+    const auto of = [&](const PointQuantity& q) { return costToReach(curve.points, level, error.of, q); };
     if (const auto reached = of(cost))
       out.push_back({&curve, *reached, *of(rowsOf), *of(shotsOf), *of(busySecondsOf)});
   }
