@@ -10,7 +10,7 @@
 namespace unshot {
 namespace {
 
-constexpr double kLookSeconds = 1;
+constexpr double kFileLookSeconds = 1;
 constexpr double kStillSeconds = 0.5;
 
 }  // namespace
@@ -72,7 +72,7 @@ void SceneWatch::stop() {
 
 bool SceneWatch::look(double now) {
   if (watched_.scene.empty() || now < next_) return false;
-  next_ = now + kLookSeconds;
+  next_ = now + kFileLookSeconds;
   if (!watched_.stamps) {
     if (watched_.reading.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
     watched_.stamps = watched_.reading.get();

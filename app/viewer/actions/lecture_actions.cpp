@@ -13,10 +13,10 @@
 namespace unshot {
 namespace {
 
-constexpr std::array<std::string_view, 3> kChannels = {"red", "green", "blue"};
+constexpr std::array<std::string_view, 3> kChannelNames = {"red", "green", "blue"};
 
 std::string checkChannel(const std::string& text) {
-  for (const std::string_view channel : kChannels) {
+  for (const std::string_view channel : kChannelNames) {
     if (text == channel) return {};
   }
   return "'" + text + "' is neither red, green nor blue";
@@ -77,7 +77,7 @@ std::span<const Action> lectureActions() {
        "Whose reflectance is in the lecture's matrix",
        {},
        [](Viewer& v, const std::string& a) {
-         v.teaching().choices.channel = a == kChannels[0] ? 0 : a == kChannels[1] ? 1 : 2;
+         v.teaching().choices.channel = a == kChannelNames[0] ? 0 : a == kChannelNames[1] ? 1 : 2;
        },
        checkChannel},
       {"allow-divergence",

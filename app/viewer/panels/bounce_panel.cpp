@@ -12,10 +12,11 @@ namespace unshot {
 namespace {
 
 // Bars are logarithmic, over so many decades below all of the light emitted.
-constexpr int kDecades = 4;
-constexpr float kHeight = 6;  // of the bars, in font sizes
+constexpr int kBarDecades = 4;
+constexpr float kBarsHeight = 6;  // of the bars, in font sizes
 
-const ImVec4 kChannels[3] = {{0.86f, 0.36f, 0.3f, 1}, {0.45f, 0.72f, 0.33f, 1}, {0.36f, 0.55f, 0.9f, 1}};
+const ImVec4 kChannelColours[3] = {
+    {0.86f, 0.36f, 0.3f, 1}, {0.45f, 0.72f, 0.33f, 1}, {0.36f, 0.55f, 0.9f, 1}};
 
 double sum(const glm::dvec3& x) { return x.x + x.y + x.z; }
 
@@ -34,12 +35,13 @@ void bounceBars(const std::vector<glm::dvec3>& power, ImVec2 at, float slot, flo
     const float left = at.x + static_cast<float>(k) * slot, bar = std::floor((slot - 2) / 3);
     for (int c = 0; c < 3; ++c) {
       if (power[0][c] <= 0 || power[k][c] <= 0) continue;
-      const double share = 1 + std::log10(power[k][c] / power[0][c]) / kDecades;
+      const double share = 1 + std::log10(power[k][c] / power[0][c]) / kBarDecades;
       if (share <= 0) continue;
       const float x = std::round(left) + static_cast<float>(c) * bar;
       const auto top = static_cast<float>(height * (1 - std::min(share, 1.0)));
-      list.AddRectFilled({x, at.y + std::min(top, height - 1)}, {x + bar, at.y + height},
-                         ImGui::GetColorU32({kChannels[c].x, kChannels[c].y, kChannels[c].z, alpha}));
+      list.AddRectFilled(
+          {x, at.y + std::min(top, height - 1)}, {x + bar, at.y + height},
+          ImGui::GetColorU32({kChannelColours[c].x, kChannelColours[c].y, kChannelColours[c].z, alpha}));
     }
     if (k % 2 != 0 && power.size() > 9) continue;
     const std::string number = std::to_string(k);
@@ -53,10 +55,10 @@ void bounceBars(const std::vector<glm::dvec3>& power, ImVec2 at, float slot, flo
 
 void bounceGrid(ImVec2 at, float left, float width, float height) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  for (int decade = 0; decade <= kDecades; ++decade) {
-    const float y = std::round(at.y + height * static_cast<float>(decade) / kDecades);
+  for (int decade = 0; decade <= kBarDecades; ++decade) {
+    const float y = std::round(at.y + height * static_cast<float>(decade) / kBarDecades);
     list.AddRectFilled({at.x + left, y}, {at.x + width, y + 1},
-                       ImGui::GetColorU32(ImGuiCol_Text, decade == kDecades ? 0.35f : 0.12f));
+                       ImGui::GetColorU32(ImGuiCol_Text, decade == kBarDecades ? 0.35f : 0.12f));
     if (decade % 2 != 0) continue;
     const std::string text = percentText(std::pow(10.0, -decade));
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
@@ -66,7 +68,7 @@ void bounceGrid(ImVec2 at, float left, float width, float height) {
 }
 
 void bounceChart(Viewer& viewer, const BounceLight& light, const ShownBounces& shown) {
-  const float em = ImGui::GetFontSize(), height = kHeight * em;
+  const float em = ImGui::GetFontSize(), height = kBarsHeight * em;
   const float width = std::floor(ImGui::GetContentRegionAvail().x), left = 3.4f * em;
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float slot = std::min((width - left) / static_cast<float>(light.power.size()), 2.4f * em);

@@ -17,7 +17,7 @@
 namespace unshot {
 namespace {
 
-constexpr int kParts = 96;          // of the bar
+constexpr int kBarParts = 96;       // of the bar
 constexpr float kBarWidth = 17;     // in letters' heights
 constexpr float kBarHeight = 0.8f;  // the same
 
@@ -31,7 +31,7 @@ ImU32 colourOf(const glm::vec3& c) {
 
 const char* unitText(const FalseColour& how) { return how.lumens_per_watt > 0 ? "lux" : "W/m\u00b2"; }
 
-bool isShown(const ViewOptions& view) { return displayMode(view.display).false_colour; }
+bool isLegendShown(const ViewOptions& view) { return displayMode(view.display).false_colour; }
 
 /// What stands above the scale, with its unit.
 std::string titleOf(const Viewer& viewer, const DisplayMode& mode, const FalseColour& how) {
@@ -68,17 +68,17 @@ const char* missingText(const Viewer& viewer, Quantity quantity) {
   return "";
 }
 
-struct Tick {
+struct LegendTick {
   double place;  ///< 0 left, 1 right
   std::string text;
 };
 
-std::vector<Tick> ticksOf(const DisplayMode& mode, const FalseColour& how, double top) {
+std::vector<LegendTick> ticksOf(const DisplayMode& mode, const FalseColour& how, double top) {
   const double unit = how.lumens_per_watt > 0 ? how.lumens_per_watt : 1;
   const auto textOf = [&](double value) {
     return mode.quantity == Quantity::kDifference ? percentText(value) : figureText(unit * value);
   };
-  std::vector<Tick> out;
+  std::vector<LegendTick> out;
   const std::vector<double> values = isolines(top, how);
   if (mode.diverging) {
     for (auto value = values.rbegin(); value != values.rend(); ++value)
@@ -93,12 +93,13 @@ std::vector<Tick> ticksOf(const DisplayMode& mode, const FalseColour& how, doubl
 }
 
 /// Numbers under the bar, as many as have room: from 0 on, to both sides where it is in the middle.
-void drawTicks(const std::vector<Tick>& ticks, bool diverging, const ImVec2& at, float width, float height) {
+void drawTicks(const std::vector<LegendTick>& ticks, bool diverging, const ImVec2& at, float width,
+               float height) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImU32 colour = ImGui::GetColorU32(ImGuiCol_Text);
   const float gap = 0.5f * ImGui::GetFontSize();
   std::vector<std::pair<float, float>> taken;
-  const auto draw = [&](const Tick& tick) {
+  const auto draw = [&](const LegendTick& tick) {
     const float x = at.x + width * static_cast<float>(tick.place);
     list.AddLine({x, at.y + height}, {x, at.y + 1.3f * height}, colour);
     const float half = 0.5f * ImGui::CalcTextSize(tick.text.c_str()).x;
@@ -122,10 +123,10 @@ void drawBar(bool diverging, const ImVec2& at, float width, float height) {
   const auto colour = [&](double place) {
     return diverging ? colourOf(divergingColourAt(2 * place - 1)) : colourOf(falseColourAt(place));
   };
-  for (int k = 0; k < kParts; ++k) {
-    const auto x = [&](int part) { return at.x + width * static_cast<float>(part) / kParts; };
+  for (int k = 0; k < kBarParts; ++k) {
+    const auto x = [&](int part) { return at.x + width * static_cast<float>(part) / kBarParts; };
     // Neither end of a part lies beyond the middle, where colours change their kind.
-    const ImU32 left = colour((k + 1e-6) / kParts), right = colour((k + 1 - 1e-6) / kParts);
+    const ImU32 left = colour((k + 1e-6) / kBarParts), right = colour((k + 1 - 1e-6) / kBarParts);
     list.AddRectFilledMultiColor({x(k), at.y}, {x(k + 1), at.y + height}, left, right, right, left);
   }
 }
@@ -156,7 +157,7 @@ void chooseUnit(Viewer& viewer) {
 
 void falseColourChoices(Viewer& viewer) {
   const ViewOptions& view = viewer.ui().settings.view;
-  if (!isShown(view)) return;
+  if (!isLegendShown(view)) return;
   const DisplayMode& mode = displayMode(view.display);
   const bool light = mode.quantity != Quantity::kFormFactors && mode.quantity != Quantity::kBounces &&
                      mode.quantity != Quantity::kDifference;

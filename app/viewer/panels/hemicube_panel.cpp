@@ -13,10 +13,10 @@
 namespace unshot {
 namespace {
 
-constexpr float kSide = 17;          // of the cross, in letters' heights
-constexpr float kLines = 10.5f;      // of text beside it, the same
-constexpr float kLeast = 5;          // of the cross, or there is no room for it
-constexpr float kMostShare = 0.45f;  // of the scene's height that it takes
+constexpr float kSide = 17;            // of the cross, in letters' heights
+constexpr float kLines = 10.5f;        // of text beside it, the same
+constexpr float kLeast = 5;            // of the cross, or there is no room for it
+constexpr float kMostOfScene = 0.45f;  // of the scene's height that it takes
 
 ImTextureID textureId(const gl::Texture& texture) {
   return reinterpret_cast<ImTextureID>(std::uintptr_t{texture.id()});
@@ -121,7 +121,7 @@ void buildHemicube(Viewer& viewer, const LowerEdge& edge) {
   const float em = ImGui::GetFontSize(), gap = 0.7f * em;
   const float bottom = edge.aboveLeft((kSide + 3) * em);
   const float room = std::min(edge.scene_width - 4 * em, bottom - gap - kLines * em);
-  const float side = std::floor(std::min({kSide * em, room, kMostShare * std::min(edge.left, edge.right)}));
+  const float side = std::floor(std::min({kSide * em, room, kMostOfScene * std::min(edge.left, edge.right)}));
   if (side < kLeast * em) return;
   ImGui::SetNextWindowPos({gap, bottom - gap}, ImGuiCond_Always, {0, 1});
   ImGui::SetNextWindowBgAlpha(0.94f);

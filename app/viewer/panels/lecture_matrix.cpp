@@ -16,7 +16,7 @@
 namespace unshot {
 namespace {
 
-constexpr double kDecades = 4;                 // that the heat map's colours go over
+constexpr double kColourDecades = 4;           // that the heat map's colours go over
 constexpr float kLegend = 0.7f, kBars = 4.5f;  // heights in letters
 constexpr float kWideLine = 30;                // has room for all choices of the matrix, in letters' heights
 constexpr std::size_t kTermsShown = 24;
@@ -37,7 +37,7 @@ ImU32 colourAt(double place) {
 ImU32 heatColour(double value, double most) {
   if (!(value > 0) || !(most > 0)) return IM_COL32(18, 18, 20, 255);
   // Above 0 nothing is as dark as 0.
-  return colourAt(0.08 + 0.92 * std::clamp(1 + std::log10(value / most) / kDecades, 0.0, 1.0));
+  return colourAt(0.08 + 0.92 * std::clamp(1 + std::log10(value / most) / kColourDecades, 0.0, 1.0));
 }
 
 std::string groupText(const GatheredMatrix& m, const Mesh& mesh, std::size_t k) {
@@ -117,12 +117,12 @@ void legend(double most, float width) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   constexpr int kParts = 64;
   for (int k = 0; k < kParts; ++k) {
-    const double value = most * std::pow(10.0, kDecades * (static_cast<double>(k) / (kParts - 1) - 1));
+    const double value = most * std::pow(10.0, kColourDecades * (static_cast<double>(k) / (kParts - 1) - 1));
     list.AddRectFilled({at.x + width * static_cast<float>(k) / kParts, at.y},
                        {at.x + width * static_cast<float>(k + 1) / kParts, at.y + height},
                        heatColour(value, most));
   }
-  const std::string low = channelText(most * std::pow(10.0, -kDecades)), high = channelText(most);
+  const std::string low = channelText(most * std::pow(10.0, -kColourDecades)), high = channelText(most);
   const ImU32 text = ImGui::GetColorU32(ImGuiCol_TextDisabled);
   list.AddText({at.x, at.y + 1.15f * height}, text, low.c_str());
   list.AddText({at.x + width - ImGui::CalcTextSize(high.c_str()).x, at.y + 1.15f * height}, text,

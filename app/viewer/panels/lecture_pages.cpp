@@ -13,12 +13,12 @@
 namespace unshot {
 namespace {
 
-constexpr std::string_view kLight = "W/m\u00b2";
+constexpr std::string_view kLightUnit = "W/m\u00b2";
 // Widths that have room for a column of names, and of units, in letters' heights.
 constexpr float kWideEffects = 24, kWideChannels = 25;
 
 /// A name, three figures and, where there is room for it, a unit.
-bool beginChannels(const char* id) {
+bool beginChannelsAndUnits(const char* id) {
   const bool wide = ImGui::GetContentRegionAvail().x > kWideChannels * ImGui::GetFontSize();
   ImGui::PushStyleVar(ImGuiStyleVar_CellPadding,
                       {0.2f * ImGui::GetFontSize(), ImGui::GetStyle().CellPadding.y});
@@ -55,21 +55,22 @@ void row(const char* name, const glm::dvec3& value, std::string_view unit, std::
 }
 
 void equationRows(const PatchInsight& p) {
-  if (!beginChannels("equation")) return;
-  row("B_i", p.radiosity, kLight,
+  if (!beginChannelsAndUnits("equation")) return;
+  row("B_i", p.radiosity, kLightUnit,
       "Radiosity of the patch: all light that leaves it, emitted and reflected. Unknown of the equation");
-  row("= E_i", p.emission, kLight, "Light that it emits by itself. Known");
+  row("= E_i", p.emission, kLightUnit, "Light that it emits by itself. Known");
   row("+ R_i", p.reflectance, "",
       "Part of the light received that is reflected, 0 to 1. Known; this is where the BRDF is");
-  row("\u00d7 \u2211 G_ij B_j", p.gathered, kLight,
+  row("\u00d7 \u2211 G_ij B_j", p.gathered, kLightUnit,
       "Light received from all patches j, the form factor G_ij being the part of i's view that j fills: "
       "the sum over those at hand with the radiosities as they are now");
-  row("right side", p.emission + p.reflectance * p.gathered, kLight,
+  row("right side", p.emission + p.reflectance * p.gathered, kLightUnit,
       "E_i + R_i \u2211 G_ij B_j: equal to B_i once all is shot");
-  row("difference", p.emission + p.reflectance * p.gathered - p.radiosity, kLight,
+  row("difference", p.emission + p.reflectance * p.gathered - p.radiosity, kLightUnit,
       "What is missing of B_i: light that others have not shot yet, or whose form factors are not at hand");
-  row("of it shot: H_i", p.received, kLight, "Irradiance: the part of the sum that others have shot already");
-  row("U_i", p.unshot, kLight, "What the patch itself has not shot yet");
+  row("of it shot: H_i", p.received, kLightUnit,
+      "Irradiance: the part of the sum that others have shot already");
+  row("U_i", p.unshot, kLightUnit, "What the patch itself has not shot yet");
   row("L = B / \u03c0", p.radiosity / std::numbers::pi, "W/(m\u00b2 sr)",
       "Radiance: the same from wherever it is looked at, which is why the result does not depend on the "
       "view");
@@ -126,7 +127,7 @@ void sources(Viewer& viewer, const PatchInsight& p) {
 }
 
 void shotRows(const ShotInsight& shot) {
-  if (!beginChannels("shot")) return;
+  if (!beginChannelsAndUnits("shot")) return;
   row("A |U| before", shot.unshot_before, "W", "Unshot power of the patch before its shot");
   row("sent: A d", shot.sent, "W", "Power that it shot");
   row("= absorbed", shot.absorbed, "W",

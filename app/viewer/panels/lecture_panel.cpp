@@ -14,7 +14,7 @@ namespace {
 // At scale 1 [px]: its width, what its lines take at least, and how much of the scene is left beside both
 // panels.
 constexpr double kWidth = 540, kLeastWidth = 316, kLeastScene = 480;
-constexpr double kMostShare = 0.62;  // of the window, where that is small
+constexpr double kMostOfWindow = 0.62;  // of the window, where that is small
 
 void page(Viewer& viewer, LecturePage shown) {
   switch (shown) {
@@ -74,7 +74,7 @@ BesideScene besideScene(const Viewer& viewer, int width) {
   if (!viewer.teaching().choices.lecture) return {panel, 0};
   const double lines = std::min<double>(kLeastWidth * scale, width - 1);
   const int lecture =
-      static_cast<int>(std::lround(std::min(kWidth * scale, std::max(lines, kMostShare * width))));
+      static_cast<int>(std::lround(std::min(kWidth * scale, std::max(lines, kMostOfWindow * width))));
   return {width - panel - lecture >= kLeastScene * scale ? panel : 0, lecture};
 }
 

@@ -86,7 +86,7 @@ void changedWindow(Viewer& viewer, float middle) {
   ImGui::End();
 }
 
-void line(const char* id, const std::string& text, ImVec2 at, ImVec2 pivot) {
+void lineOverScene(const char* id, const std::string& text, ImVec2 at, ImVec2 pivot) {
   ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
   ImGui::SetNextWindowBgAlpha(0.85f);
   ImGui::Begin(id, nullptr, kFixed | ImGuiWindowFlags_NoInputs);
@@ -135,16 +135,16 @@ void buildOverlays(Viewer& viewer, int scene_width, float bottom, bool notices, 
   if (notices && tasksWindow(viewer, middle)) {
     // What else there is to say is said once it is done.
   } else if (framing && state.facts) {
-    line("framing", "looking for a good view \u2026", {middle, height / 2}, {0.5f, 0.5f});
+    lineOverScene("framing", "looking for a good view \u2026", {middle, height / 2}, {0.5f, 0.5f});
   } else if (state.phase == SessionPhase::kEmpty && !viewer.error()) {
-    line("empty", "Drop an OBJ scene here, or Ctrl+O", {middle, height / 2}, {0.5f, 0.5f});
+    lineOverScene("empty", "Drop an OBJ scene here, or Ctrl+O", {middle, height / 2}, {0.5f, 0.5f});
   } else if (state.stopped_by == "no light") {
     const char* dark =
         "No light: no face of this scene emits any (Ke above 0), nor does a sky. The chooser Sky in the "
         "section "
         "Scene, or the action sky r,g,b, lights it";
-    line("dark", brokenText(dark, std::min(2 * middle - 3 * size, 30 * size)), {middle, height / 2},
-         {0.5f, 0.5f});
+    lineOverScene("dark", brokenText(dark, std::min(2 * middle - 3 * size, 30 * size)), {middle, height / 2},
+                  {0.5f, 0.5f});
   }
   if (viewer.error()) {
     errorWindow(viewer, middle);

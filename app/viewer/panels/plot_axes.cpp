@@ -63,7 +63,7 @@ std::string grouped(double value, int decimals) {
 }
 
 /// mantissa * 10^exponent: as a plain number where that is short, with the digits that the mantissa has.
-std::string numberText(std::string mantissa, int exponent, int lowest_plain) {
+std::string mantissaText(std::string mantissa, int exponent, int lowest_plain) {
   if (exponent >= lowest_plain && exponent < 6) {
     const int digits_behind = mantissa.size() > 2 ? static_cast<int>(mantissa.size()) - 2 : 0;
     const double plain = std::strtod((mantissa + "e" + std::to_string(exponent)).c_str(), nullptr);
@@ -83,12 +83,12 @@ std::string significant(double value, int shift, int digits, int lowest_plain) {
   const std::size_t e = text.find('e');
   if (e == std::string::npos) return text;  // no number
   return (value < 0 ? "−" : "") +
-         numberText(text.substr(0, e), std::atoi(text.c_str() + e + 1) + shift, lowest_plain);
+         mantissaText(text.substr(0, e), std::atoi(text.c_str() + e + 1) + shift, lowest_plain);
 }
 
 /// The number on a line at digit * 10^exponent.
 std::string gridText(int digit, int exponent, bool percent) {
-  if (percent) return numberText(std::to_string(digit), exponent + 2, -3) + " %";
+  if (percent) return mantissaText(std::to_string(digit), exponent + 2, -3) + " %";
   return (digit == 1 ? "" : std::to_string(digit) + "×") + ("10" + raised(exponent));
 }
 

@@ -11,8 +11,8 @@ namespace unshot {
 namespace {
 
 constexpr float kRows = 14;
-constexpr float kWidth = 44;       // in letters' heights
-constexpr float kHelpBeside = 34;  // from this width on help stands beside the names
+constexpr float kPromptWidth = 44;  // in letters' heights
+constexpr float kHelpBeside = 34;   // from this width on help stands beside the names
 constexpr float kHelpColumn = 15;
 
 enum class Entered { kNothing, kEnter, kTab, kUp, kDown, kEscape };
@@ -240,7 +240,7 @@ void buildPrompt(Viewer& viewer, float middle) {
   if (!prompt.open()) return;
   const ImGuiStyle& style = ImGui::GetStyle();
   const float size = ImGui::GetFontSize();
-  const float width = std::min(2 * middle - size, kWidth * size);
+  const float width = std::min(2 * middle - size, kPromptWidth * size);
   // The line, the path or nothing above it, two lines of help below.
   const float others = 6 * ImGui::GetFrameHeightWithSpacing() + 2 * style.WindowPadding.y;
   const float height =

@@ -16,8 +16,8 @@
 namespace unshot {
 namespace {
 
-constexpr float kHeight = 1.5f;  // in letters' heights
-constexpr float kGap = 1.1f;     // between two parts, the same
+constexpr float kLineHeight = 1.5f;  // in letters' heights
+constexpr float kGapOfParts = 1.1f;  // between two parts, the same
 constexpr const char* kWidestPhase = "Refining form factors";
 
 /// A part of the line. `widest` is the longest text that it usually has: so much room is kept for it, so that
@@ -117,11 +117,11 @@ void missingPanelTip(const Viewer& viewer) {
 
 float buildStatusLine(Viewer& viewer, int scene_width) {
   if (!viewer.ui().panel || !viewer.ui().status) return 0;
-  const float em = ImGui::GetFontSize(), height = std::round(kHeight * em);
+  const float em = ImGui::GetFontSize(), height = std::round(kLineHeight * em);
   const float phase = 0.7f * em + 0.8f * em + ImGui::CalcTextSize(kWidestPhase).x;
   const bool cramped = static_cast<float>(scene_width) < phase + 0.7f * em;
   const PhaseLook look = phaseLook(viewer.state());
-  const float shown = cramped ? 0 : (0.8f + kGap) * em + ImGui::CalcTextSize(look.text).x;
+  const float shown = cramped ? 0 : (0.8f + kGapOfParts) * em + ImGui::CalcTextSize(look.text).x;
   const std::string no_panel = missingPanel(viewer, static_cast<float>(scene_width) - 1.5f * em - shown);
   if (cramped && no_panel.empty()) return 0;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
@@ -142,9 +142,9 @@ float buildStatusLine(Viewer& viewer, int scene_width) {
     ImGui::TextUnformatted(look.text);
     tooltip("What the solve is doing. Tab hides this line with the panel");
   }
-  float at = phase + kGap * em;
+  float at = phase + kGapOfParts * em;
   if (!no_panel.empty()) {
-    if (!cramped) ImGui::SameLine(0, kGap * em);
+    if (!cramped) ImGui::SameLine(0, kGapOfParts * em);
     ImGui::TextUnformatted(no_panel.c_str());
     missingPanelTip(viewer);
     at = end;
@@ -158,7 +158,7 @@ float buildStatusLine(Viewer& viewer, int scene_width) {
       ImGui::TextDisabled("%s", part.text.c_str());
       tooltip(part.tip);
     }
-    at += width + kGap * em;
+    at += width + kGapOfParts * em;
   }
   ImGui::End();
   ImGui::PopStyleVar(4);

@@ -32,7 +32,7 @@ ImVec4 amber(float strength = 1, float alpha = 1) {
   return {0.925f * strength, 0.675f * strength, 0.310f * strength, alpha};
 }
 
-struct Colour {
+struct ThemeColour {
   ImGuiCol place;
   ImVec4 value;
 };
@@ -40,7 +40,7 @@ struct Colour {
 // Around the grey of the picture's background (26): panels a little lighter, fields lighter than panels, and
 // amber for what is chosen, moved or measured.
 void setColours(ImGuiStyle& style) {
-  const Colour table[] = {
+  const ThemeColour table[] = {
       {ImGuiCol_Text, grey(226)},
       {ImGuiCol_TextDisabled, grey(146)},
       {ImGuiCol_TextSelectedBg, amber(1, 0.30f)},
@@ -95,7 +95,7 @@ void setColours(ImGuiStyle& style) {
       {ImGuiCol_NavWindowingHighlight, amber(1, 0.7f)},
       {ImGuiCol_NavWindowingDimBg, grey(10, 0.4f)},
   };
-  for (const Colour& colour : table) style.Colors[colour.place] = colour.value;
+  for (const ThemeColour& colour : table) style.Colors[colour.place] = colour.value;
 }
 
 // In pixels at scale 1.
