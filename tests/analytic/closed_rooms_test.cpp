@@ -28,14 +28,14 @@ Scene furnishedRoom(double rho) {
   return b.finish();
 }
 
-struct Case {
+struct RoomCase {
   const char* method;
   double rho;
   std::uint64_t elements;  // 0: a mesh that follows the light
 };
 
-std::vector<Case> cases() {
-  std::vector<Case> out;
+std::vector<RoomCase> roomCases() {
+  std::vector<RoomCase> out;
   for (const char* method : {"rays", "hemicube-visibility"}) {
     for (const double rho : {0.5, 0.9, 0.99, 0.999, 0.9999}) out.push_back({method, rho, 400});
   }
@@ -43,7 +43,7 @@ std::vector<Case> cases() {
   return out;
 }
 
-class ClosedRooms : public testing::TestWithParam<Case> {};
+class ClosedRooms : public testing::TestWithParam<RoomCase> {};
 
 TEST_P(ClosedRooms, AreOfOneRadiosityWhateverStandsInThem) {
   const auto& [method, rho, elements] = GetParam();
@@ -73,7 +73,7 @@ TEST_P(ClosedRooms, AreOfOneRadiosityWhateverStandsInThem) {
   EXPECT_LT(worst, 2 * tolerance);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, ClosedRooms, testing::ValuesIn(cases()), [](const auto& row) {
+INSTANTIATE_TEST_SUITE_P(Methods, ClosedRooms, testing::ValuesIn(roomCases()), [](const auto& row) {
   return testName(row.param.method) + std::to_string(static_cast<int>(std::lround(1e4 * row.param.rho))) +
          (row.param.elements ? "" : "FollowingLight");
 });

@@ -10,20 +10,20 @@ namespace {
 
 using namespace testing_support;
 
-struct Case {
+struct EnergyCase {
   FormFactorMethodRow method;
   IterationModeRow mode;
 };
 
-std::vector<Case> cases() {
-  std::vector<Case> out;
+std::vector<EnergyCase> energyCases() {
+  std::vector<EnergyCase> out;
   for (const FormFactorMethodRow& method : formFactorMethods()) {
     for (const IterationModeRow& mode : iterationModes()) out.push_back({method, mode});
   }
   return out;
 }
 
-class Energy : public testing::TestWithParam<Case> {
+class Energy : public testing::TestWithParam<EnergyCase> {
  protected:
   static void expectBalance(Scene scene, std::uint64_t elements, int most_steps) {
     SolveOptions options = optionsOf(GetParam().method.info.key, elements, 1e-6);
@@ -52,7 +52,7 @@ TEST_P(Energy, AddsUpInARoomOfConcaveSurfaces) {
   expectBalance(lShapedRoom(), 200, 200);
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, Energy, testing::ValuesIn(cases()), [](const auto& row) {
+INSTANTIATE_TEST_SUITE_P(Table, Energy, testing::ValuesIn(energyCases()), [](const auto& row) {
   return testName(row.param.method.info.key) + "_" + testName(row.param.mode.info.key);
 });
 

@@ -23,7 +23,7 @@ SolveOptions follows(double error, const std::string& mode = "auto") {
   return options;
 }
 
-double errorOf(const Truth& truth, const Snapshot& snapshot) {
+double reflectedErrorOf(const Truth& truth, const Snapshot& snapshot) {
   return reflectedError(truth, answerProbes(snapshot, probesOf(truth), false));
 }
 
@@ -39,7 +39,7 @@ TEST(FollowsLight, HasAboutTheErrorAskedFor) {
   for (const double asked : {0.05, 0.02, 0.01}) {
     const auto solve = solved(publishedCornellBox(), follows(asked));
     EXPECT_NE(solve->mesh().base, nullptr);
-    const double error = errorOf(cornellTruth(), solve->snapshot());
+    const double error = reflectedErrorOf(cornellTruth(), solve->snapshot());
     RecordProperty("error", std::to_string(error));
     EXPECT_LT(error, 1.5 * asked);
     EXPECT_LT(error, before);
@@ -54,7 +54,8 @@ TEST(FollowsLight, IsNearlyAsNearAsAUniformMeshOfThreeTimesTheElements) {
   uniform.elements = 3 * adapted->mesh().element_count;
   const auto even = solved(publishedCornellBox(), uniform);
   EXPECT_LT(1.5 * adapted->mesh().patch_count, even->mesh().patch_count);
-  EXPECT_LT(errorOf(cornellTruth(), adapted->snapshot()), 1.5 * errorOf(cornellTruth(), even->snapshot()));
+  EXPECT_LT(reflectedErrorOf(cornellTruth(), adapted->snapshot()),
+            1.5 * reflectedErrorOf(cornellTruth(), even->snapshot()));
 }
 
 // The last stage: what the local pass makes of the solution is nearer to the truth than the solution.
@@ -64,10 +65,10 @@ TEST(FollowsLight, TheLocalPassBringsItNearer) {
   while (solve->state() == SolveState::kRunning) {
     solve->step();
     if (coarse == 0 && solve->measures().solverBound() <= solve->solverTarget())
-      coarse = errorOf(cornellTruth(), solve->snapshot());
+      coarse = reflectedErrorOf(cornellTruth(), solve->snapshot());
   }
   ASSERT_GT(coarse, 0);
-  EXPECT_LT(errorOf(cornellTruth(), solve->snapshot()), 0.85 * coarse);
+  EXPECT_LT(reflectedErrorOf(cornellTruth(), solve->snapshot()), 0.85 * coarse);
 }
 
 TEST(FollowsLight, ModesAgree) {

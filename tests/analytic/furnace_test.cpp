@@ -25,20 +25,20 @@ Tolerance toleranceOf(std::string_view method) {
   return method == "closed-form" ? Tolerance{1e-5, 1e-4, 1e-4} : Tolerance{0.001, 0.03, 0.02};
 }
 
-struct Case {
+struct FurnaceCase {
   FormFactorMethodRow method;
   double rho;
 };
 
-std::vector<Case> cases() {
-  std::vector<Case> out;
+std::vector<FurnaceCase> furnaceCases() {
+  std::vector<FurnaceCase> out;
   for (const FormFactorMethodRow& row : formFactorMethods()) {
     for (const double rho : {0.5, 0.9}) out.push_back({row, rho});
   }
   return out;
 }
 
-class Furnace : public testing::TestWithParam<Case> {};
+class Furnace : public testing::TestWithParam<FurnaceCase> {};
 
 TEST_P(Furnace, IsOfOneRadiosityEverywhere) {
   const auto [method, rho] = GetParam();
@@ -75,7 +75,7 @@ TEST_P(Furnace, IsOfOneRadiosityEverywhere) {
   EXPECT_LT(std::abs(mean_at_edge), tolerance.edge_mean);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, Furnace, testing::ValuesIn(cases()), [](const auto& row) {
+INSTANTIATE_TEST_SUITE_P(Methods, Furnace, testing::ValuesIn(furnaceCases()), [](const auto& row) {
   return testName(row.param.method.info.key) + "Rho" + std::to_string(static_cast<int>(100 * row.param.rho));
 });
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "scene/analytic_scenes.h"
-#include "scene/obj_reader.h"
+#include "support/assets.h"
 #include "support/solving.h"
 #include "support/test_scenes.h"
 
@@ -22,8 +22,6 @@ struct TestScene {
   std::uint64_t elements;
 };
 
-Scene asset(const char* name) { return readObj(std::filesystem::path(UNSHOT_SOURCE_DIR) / "assets" / name); }
-
 // Surfaces that each have two black channels, or that reflect all of one.
 Scene colouredCube() {
   Scene scene = cubeOneFaceLit(0.9);
@@ -33,10 +31,10 @@ Scene colouredCube() {
 }
 
 const TestScene kScenes[] = {
-    {"CornellBox", [] { return asset("cornell_box.obj"); }, "hemicube", 400},
+    {"CornellBox", [] { return assetScene("cornell_box.obj"); }, "hemicube", 400},
     {"PublishedCornellBox", [] { return publishedCornellBox(); }, "hemicube", 250},
-    {"Furnace", [] { return asset("furnace.obj"); }, "closed-form", 200},
-    {"TwoPatches", [] { return asset("two_patches.obj"); }, "closed-form", 100},
+    {"Furnace", [] { return assetScene("furnace.obj"); }, "closed-form", 200},
+    {"TwoPatches", [] { return assetScene("two_patches.obj"); }, "closed-form", 100},
     {"Spheres", [] { return concentricSpheres(0.6, 1, 0.8, 0, 6); }, "hemicube", 300},
     {"LitAndDarkRoom", [] { return litAndDarkRoom(); }, "hemicube", 200},
     {"CubeHalf", [] { return cubeOneFaceLit(0.5); }, "closed-form", 300},

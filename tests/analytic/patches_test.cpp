@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing_support;
 
-constexpr double kParallel = 0.199824895698, kPerpendicular = 0.200043776075;
+constexpr double kFaceToFace = 0.199824895698, kPerpendicular = 0.200043776075;
 
 // The light is black and its E = 1, so the mean irradiance of the floor (side 0) is the form factor.
 double receivedBy(Scene scene, const SolveOptions& options) {
@@ -31,7 +31,7 @@ class TwoSquares : public testing::TestWithParam<FormFactorMethodRow> {
 
 TEST_P(TwoSquares, ReceiveTheFormFactorFaceToFace) {
   for (const std::uint64_t elements : {200u, 2000u}) {
-    EXPECT_LT(errorOf(parallelSquares(0.5), elements, kParallel), 0.005);
+    EXPECT_LT(errorOf(parallelSquares(0.5), elements, kFaceToFace), 0.005);
   }
 }
 
@@ -67,7 +67,7 @@ TEST(ClosedForm, ConvergesWithTheSquareOfTheElementsSize) {
   double last = 0;
   for (const std::uint64_t along : {2u, 4u, 8u, 16u}) {
     const double error =
-        receivedBy(parallelSquares(0.5), optionsOf("closed-form", 2 * along * along, 1e-6)) / kParallel - 1;
+        receivedBy(parallelSquares(0.5), optionsOf("closed-form", 2 * along * along, 1e-6)) / kFaceToFace - 1;
     measured(std::to_string(along) + " elements along an edge, relative error", error);
     if (last != 0) {
       const double order = std::log2(std::abs(last / error));

@@ -13,6 +13,7 @@
 #include "formfactor/methods.h"
 #include "render/display_modes.h"
 #include "solver/modes.h"
+#include "support/assets.h"
 #include "support/live_viewer.h"
 #include "support/temp_folder.h"
 
@@ -20,10 +21,11 @@ namespace unshot {
 namespace {
 
 using testing::HasSubstr;
+using testing_support::asset;
+using testing_support::kCornellBox;
+using testing_support::kTwoPatches;
 using testing_support::LiveViewer;
 using testing_support::TempFolder;
-
-const std::string kScenes = std::string(UNSHOT_SOURCE_DIR) + "/assets/";
 
 TEST(Actions, KeysAndShortcutsAreUnique) {
   std::set<std::string_view> keys;
@@ -67,10 +69,10 @@ TEST(Actions, UnknownOnesAreUsageErrors) {
 // For each action an argument that it must take; actions without one are not listed.
 const std::map<std::string_view, std::string>& validArguments() {
   static const std::map<std::string_view, std::string> arguments{
-      {"open", kScenes + "two_patches.obj"},
+      {"open", kTwoPatches},
       {"pause", "on"},
       {"step", "2"},
-      {"browse", kScenes},
+      {"browse", asset("").string()},
       {"actions", "bounces 2"},
       {"clean", "on"},
       {"watch", "on"},
@@ -184,9 +186,9 @@ TEST(Actions, ChecksRefuseNonsenseAndNeverThrow) {
   }
 }
 
-LiveViewer::Options cornellBox() {
+LiveViewer::Options boxToActOn() {
   LiveViewer::Options options;
-  options.scene = kScenes + "cornell_box.obj";
+  options.scene = kCornellBox;
   options.solve.elements = 200;
   options.width = 640;
   options.height = 360;
@@ -221,7 +223,7 @@ class EveryAction : public testing::Test {
 };
 
 TEST_F(EveryAction, PerformsOnALiveViewer) {
-  LiveViewer live(cornellBox());
+  LiveViewer live(boxToActOn());
   ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
   ASSERT_TRUE(live.until([&] { return live->nextFrame(0) > 1e30; })) << "never at rest";
   for (const Action& action : actions()) {
@@ -266,7 +268,7 @@ TEST_F(EveryAction, WithoutASceneNoneCrashes) {
 }
 
 TEST(LiveViewer, AWrongArgumentIsShownAndChangesNothing) {
-  LiveViewer live(cornellBox());
+  LiveViewer live(boxToActOn());
   live->perform("display", "colours");
   ASSERT_TRUE(live->error());
   EXPECT_EQ(live->error()->kind(), ErrorKind::kUsage);
@@ -282,7 +284,7 @@ bool showsNotice(LiveViewer& live) {
 }
 
 TEST(LiveViewer, StepSaysWhyItShootsNothing) {
-  LiveViewer::Options options = cornellBox();
+  LiveViewer::Options options = boxToActOn();
   options.script = "pause on\nstep\nwait shots 1\n";
   LiveViewer live(options);
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
@@ -296,7 +298,7 @@ TEST(LiveViewer, StepSaysWhyItShootsNothing) {
 }
 
 TEST(LiveViewer, CountsShotsExactly) {
-  LiveViewer::Options options = cornellBox();
+  LiveViewer::Options options = boxToActOn();
   options.script = "pause on\nstep 5\nwait shots 5\nstep\nwait shots 6\nstep 37\nwait shots 43\n";
   LiveViewer live(options);
   std::set<std::uint64_t> counts;
@@ -313,8 +315,8 @@ TEST(LiveViewer, CountsShotsExactly) {
 }
 
 TEST(LiveViewer, EveryModeMethodAndFinenessConverges) {
-  LiveViewer::Options options = cornellBox();
-  options.scene = kScenes + "furnace.obj";
+  LiveViewer::Options options = boxToActOn();
+  options.scene = asset("furnace.obj");
   LiveViewer live(options);
   ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
   EXPECT_EQ(live.title(), "furnace \u2013 Unshot");

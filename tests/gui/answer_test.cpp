@@ -31,7 +31,7 @@ constexpr double kAim = 0.05;    // [s]
 // The machine may do other things too; what is measured on one that does not stands in README.md.
 constexpr double kMedianLimit = 0.05, kMostLimit = 0.1;  // of nine in ten
 
-struct Place {
+struct PointerPlace {
   int x, y;
 };
 
@@ -56,7 +56,7 @@ class Onlooker {
     XDestroyImage(image);
     return bytes;
   }
-  void point(const Place& place) {
+  void point(const PointerPlace& place) {
     ::XWarpPointer(display_, None, window_, 0, 0, 0, 0, place.x, place.y);
     ::XSync(display_, False);
   }
@@ -157,7 +157,7 @@ TEST_P(WindowAnswers, SoonWhileItSolves) {
   Onlooker onlooker(run.window());
   const Area scene{100, 300, 800, 4};  // across edges of walls
   const Area name{985, 8, 235, 20}, help_button{1226, 11, 8, 20}, help{440, 340, 100, 8};
-  const auto point = [&](Place place) { return [&onlooker, place] { onlooker.point(place); }; };
+  const auto point = [&](PointerPlace place) { return [&onlooker, place] { onlooker.point(place); }; };
   const auto send = [&](int type, unsigned code) {
     return [&onlooker, type, code] { onlooker.send(type, code); };
   };

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing_support::LiveViewer;
 using testing_support::TempFolder;
 
-LiveViewer::Options cornellBox(const std::string& script = {}) {
+LiveViewer::Options boxToCompare(const std::string& script = {}) {
   LiveViewer::Options options;
   options.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
   options.solve.elements = 300;
@@ -30,7 +30,7 @@ const Snapshot& shown(LiveViewer& live) { return *live->state().snapshot; }
 TEST(Comparison, AScriptWaitsForTheBouncesItChose) {
   const TempFolder folder;
   const std::string png = folder / "two.png";
-  LiveViewer live(cornellBox("wait converged\nbounces 2\nscreenshot " + png + "\nremember\n"));
+  LiveViewer live(boxToCompare("wait converged\nbounces 2\nscreenshot " + png + "\nremember\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
   EXPECT_EQ(live->exitCode(), 0);
   EXPECT_EQ(shownBounces(shown(live), live->ui().settings.view.light), 2u);
@@ -45,7 +45,7 @@ TEST(Comparison, AScriptWaitsForTheBouncesItChose) {
 }
 
 TEST(Comparison, ABounceByItself) {
-  LiveViewer live(cornellBox("wait converged\nbounce-alone 2\nremember\nbounces 2\n"));
+  LiveViewer live(boxToCompare("wait converged\nbounce-alone 2\nremember\nbounces 2\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
   const ViewOptions& view = live->ui().settings.view;
   EXPECT_EQ(view.reference->name, "bounce 2 alone");
@@ -63,7 +63,7 @@ TEST(Comparison, ABounceByItself) {
 }
 
 TEST(Comparison, TheFirstBounceIsDirectLight) {
-  LiveViewer live(cornellBox("wait converged\nbounces 1\n"));
+  LiveViewer live(boxToCompare("wait converged\nbounces 1\n"));
   ASSERT_TRUE(live.until([&] {
     return live->state().snapshot && shownBounces(shown(live), live->ui().settings.view.light) == 1;
   }));
@@ -76,7 +76,7 @@ TEST(Comparison, TheFirstBounceIsDirectLight) {
 }
 
 TEST(Comparison, WhatIsMissingIsSaidAndComputedOnlyWhenAsked) {
-  LiveViewer live(cornellBox());
+  LiveViewer live(boxToCompare());
   ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
   ASSERT_TRUE(live.until([&] { return live->nextFrame(0) > 1e30; }));
   ASSERT_GT(shown(live).bounce_wait.columns, 0u);
@@ -95,7 +95,7 @@ TEST(Comparison, WhatIsMissingIsSaidAndComputedOnlyWhenAsked) {
 
 TEST(Comparison, ASolutionFromAFileIsComparedOnAnyMesh) {
   const TempFolder folder;
-  LiveViewer live(cornellBox());
+  LiveViewer live(boxToCompare());
   ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
   writeWholeFile(folder / "coarse.ply", plyBytes(shown(live), false, 1));
   live.performAndWait("reference", folder / "coarse.ply");
@@ -125,7 +125,7 @@ TEST(Comparison, ASolutionFromAFileIsComparedOnAnyMesh) {
 }
 
 TEST(Comparison, AgainShootsFromNothingAndKnowsTheTruthAfterDirect) {
-  LiveViewer::Options options = cornellBox();
+  LiveViewer::Options options = boxToCompare();
   options.solve.mode = "direct";
   LiveViewer live(options);
   ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "export/image_files.h"
+#include "gui/support/panel.h"
 #include "gui/support/screen.h"
 #include "support/live_viewer.h"
 #include "support/temp_folder.h"
@@ -17,6 +18,7 @@ namespace unshot {
 namespace {
 
 using testing_support::eventually;
+using testing_support::idOf;
 using testing_support::LiveViewer;
 using testing_support::TempFolder;
 
@@ -31,16 +33,6 @@ const ImGuiWindow* childOf(const char* window, const char* child) {
     if (each->Active && std::string(each->Name).starts_with(start)) return each;
   }
   return nullptr;
-}
-
-/// What is written as "a/b": b, with a pushed as an identity before it.
-ImGuiID idOf(const std::string& path, ImGuiID within) {
-  for (std::size_t at = 0; at <= path.size();) {
-    const std::size_t end = std::min(path.find('/', at), path.size());
-    within = ImHashStr(path.c_str() + at, end - at, within);
-    at = end + 1;
-  }
-  return within;
 }
 
 const ImGuiWindow* tooltipShown() {

@@ -3,14 +3,13 @@
 
 #include "export/image_files.h"
 #include "gui/support/drag_source.h"
+#include "gui/support/panel.h"
 
 namespace unshot {
 namespace {
 
 using namespace testing_support;
 using testing::HasSubstr;
-
-constexpr int kPanel = 304;  // its width at scale 1, as app/viewer/panels/panels.cpp has it [px]
 
 class Drop : public testing::Test {
  protected:

@@ -105,12 +105,12 @@ struct State {
   std::vector<Step> enter, leave;
 };
 
-struct Window {
+struct WindowSize {
   int width, height;
   double scale;
 };
 
-class Layout : public testing::TestWithParam<Window> {
+class Layout : public testing::TestWithParam<WindowSize> {
  protected:
   void SetUp() override {
     writePng(folder_ / "photograph.png", Image8{2, 1, {255, 128, 0, 0, 128, 255}});
@@ -244,8 +244,9 @@ TEST_P(Layout, NothingLiesOverAnythingElseOrIsCutOff) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Gui, Layout,
-                         testing::Values(Window{640, 360, 1}, Window{960, 540, 1}, Window{1280, 800, 1},
-                                         Window{640, 360, 2}, Window{960, 540, 2}, Window{1280, 800, 2}),
+                         testing::Values(WindowSize{640, 360, 1}, WindowSize{960, 540, 1},
+                                         WindowSize{1280, 800, 1}, WindowSize{640, 360, 2},
+                                         WindowSize{960, 540, 2}, WindowSize{1280, 800, 2}),
                          [](const auto& row) {
                            return std::to_string(row.param.width) + "x" + std::to_string(row.param.height) +
                                   "At" + std::to_string(static_cast<int>(row.param.scale));

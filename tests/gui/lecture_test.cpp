@@ -10,6 +10,7 @@
 
 #include "formfactor/hemicube_view.h"
 #include "gui/support/program_pictures.h"
+#include "support/assets.h"
 #include "support/live_viewer.h"
 #include "viewer/hemicube_cross.h"
 #include "viewer/matrix_series.h"
@@ -18,6 +19,7 @@
 namespace unshot {
 namespace {
 
+using testing_support::kCornellBox;
 using testing_support::LiveViewer;
 using testing_support::picture;
 using testing_support::ProgramResult;
@@ -25,11 +27,9 @@ using testing_support::runScript;
 using testing_support::showsSomething;
 using testing_support::TempFolder;
 
-const std::string kScenes = std::string(UNSHOT_SOURCE_DIR) + "/assets/";
-
-LiveViewer::Options cornellBox(const std::string& script) {
+LiveViewer::Options boxToTeachWith(const std::string& script) {
   LiveViewer::Options options;
-  options.scene = kScenes + "cornell_box.obj";
+  options.scene = kCornellBox;
   options.solve.elements = 500;
   options.solve.error = 0.01;
   options.script = script;
@@ -100,8 +100,8 @@ TEST(MatrixSeries, OfAMatrixThatIsKnown) {
 // as equally bright, which here is worth 5 % of the power; the series itself ends at 0.5^64.
 TEST(Lecture, PartialSumsTendToTheSolvesLight) {
   const TempFolder folder;
-  LiveViewer live(cornellBox("wait converged\ncomplete-bounces\nlecture-page matrix\nscreenshot-scene " +
-                             (folder.path() / "a.png").string() + "\n"));
+  LiveViewer live(boxToTeachWith("wait converged\ncomplete-bounces\nlecture-page matrix\nscreenshot-scene " +
+                                 (folder.path() / "a.png").string() + "\n"));
   ASSERT_TRUE(finished(live));
   Teaching& teaching = live->teaching();
   ASSERT_TRUE(teaching.insight() && teaching.insight()->matrix);
@@ -133,8 +133,8 @@ TEST(Lecture, PartialSumsTendToTheSolvesLight) {
 // patch, against parts of it where something is near. 2 % of all light in any one patch.
 TEST(Hemicube, ThePictureHasTheSolversFormFactors) {
   const TempFolder folder;
-  LiveViewer live(cornellBox("wait converged\npick 0.5,0.2\nhemicube-view on\nscreenshot-scene " +
-                             (folder.path() / "a.png").string() + "\n"));
+  LiveViewer live(boxToTeachWith("wait converged\npick 0.5,0.2\nhemicube-view on\nscreenshot-scene " +
+                                 (folder.path() / "a.png").string() + "\n"));
   ASSERT_TRUE(finished(live));
   const Teaching& teaching = live->teaching();
   const std::uint32_t patch = live->picking().required().pick.patch;
@@ -153,8 +153,8 @@ TEST(Hemicube, ThePictureHasTheSolversFormFactors) {
 
 TEST(Hemicube, FollowsThePatchThatShootsAndTheOneThatIsPicked) {
   const TempFolder folder;
-  LiveViewer live(cornellBox("pause on\nhemicube-view on\nstep\nwait shots 1\nscreenshot-scene " +
-                             (folder.path() / "a.png").string() + "\n"));
+  LiveViewer live(boxToTeachWith("pause on\nhemicube-view on\nstep\nwait shots 1\nscreenshot-scene " +
+                                 (folder.path() / "a.png").string() + "\n"));
   ASSERT_TRUE(finished(live));
   const Teaching& teaching = live->teaching();
   ASSERT_TRUE(teaching.insight() && teaching.insight()->shot);
@@ -187,8 +187,8 @@ void hover(LiveViewer& live, float x, float y) {
 // At 1280 x 800 the lecture is 540 px wide, its left map in the upper left of it, the hemicube in the lower
 // left of the scene.
 TEST(Lecture, WhatTheMouseIsOverIsFramedInTheScene) {
-  LiveViewer live(
-      cornellBox("wait converged\ncomplete-bounces\nlecture-page matrix\nhemicube-view on\npick 0.5,0.3\n"));
+  LiveViewer live(boxToTeachWith(
+      "wait converged\ncomplete-bounces\nlecture-page matrix\nhemicube-view on\npick 0.5,0.3\n"));
   ASSERT_TRUE(finished(live));
   ASSERT_TRUE(live.until([&] { return live->nextFrame(0) > 1e30; }));
   const Teaching& teaching = live->teaching();
@@ -217,7 +217,7 @@ bool firstButtonIsEnabled(LiveViewer& live) {
 }
 
 TEST(Lecture, StepIsDisabledWhereNothingIsToBeShot) {
-  LiveViewer live(cornellBox("pause on\nlecture-page shots\nstep\nwait shots 1\n"));
+  LiveViewer live(boxToTeachWith("pause on\nlecture-page shots\nstep\nwait shots 1\n"));
   ASSERT_TRUE(finished(live));
   EXPECT_TRUE(live->solveGoesOn());
   EXPECT_TRUE(firstButtonIsEnabled(live));

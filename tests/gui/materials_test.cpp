@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing_support::LiveViewer;
 using testing_support::TempFolder;
 
-LiveViewer::Options cornellBox(const std::string& script = {}) {
+LiveViewer::Options boxToEdit(const std::string& script = {}) {
   LiveViewer::Options options;
   options.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
   options.solve.elements = 200;
@@ -46,7 +46,7 @@ double meanIrradiance(LiveViewer& live) {
 }
 
 TEST(Materials, ActionsChangeThemWhileTheSolveGoesOn) {
-  LiveViewer live(cornellBox("wait converged\nreflectance red 0.1,0.2,0.7\nemission light 34,24,8\n"));
+  LiveViewer live(boxToEdit("wait converged\nreflectance red 0.1,0.2,0.7\nemission light 34,24,8\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
   ASSERT_TRUE(carriedOut(live));
   EXPECT_EQ(shown(live, "red").reflectance, glm::dvec3(0.1, 0.2, 0.7));
@@ -65,7 +65,7 @@ TEST(Materials, ActionsChangeThemWhileTheSolveGoesOn) {
 }
 
 TEST(Materials, AnyCanBeALight) {
-  LiveViewer live(cornellBox("wait converged\nlight green on\nlight light off\n"));
+  LiveViewer live(boxToEdit("wait converged\nlight green on\nlight light off\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
   ASSERT_TRUE(carriedOut(live));
   EXPECT_EQ(shown(live, "green").emission, glm::dvec3(17, 12, 4)) << "as much as the other light";
@@ -73,7 +73,7 @@ TEST(Materials, AnyCanBeALight) {
 }
 
 TEST(Materials, UndoAndRedoGoStepByStep) {
-  LiveViewer live(cornellBox());
+  LiveViewer live(boxToEdit());
   ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
   const std::vector<Material> opened = live->edits().materials();
   EXPECT_FALSE(live->edits().edited());
@@ -115,7 +115,7 @@ TEST(Materials, ADragIsUndoneAsOne) {
 }
 
 TEST(Materials, WhatCannotBeIsSaidAndChangesNothing) {
-  LiveViewer live(cornellBox());
+  LiveViewer live(boxToEdit());
   ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
   for (const auto& [action, argument, message] :
        {std::array<std::string, 3>{"reflectance", "red 0.5,0.5,1.5", "r,g,b from 0 on to 1"},
@@ -131,7 +131,7 @@ TEST(Materials, WhatCannotBeIsSaidAndChangesNothing) {
 }
 
 TEST(Materials, OfASceneThatIsBeingOpenedAreNotEditedBlindly) {
-  LiveViewer live(cornellBox());
+  LiveViewer live(boxToEdit());
   ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
   live->perform("reflectance", "red 0.5,0.5,0.5");
   live->perform("open", (std::filesystem::path(UNSHOT_SOURCE_DIR) / "assets/two_patches.obj").string());
@@ -155,7 +155,7 @@ TEST(Materials, OfASceneThatIsBeingOpenedAreNotEditedBlindly) {
 TEST(Materials, AreSavedAsTheyAreShown) {
   const TempFolder folder;
   const std::string file = (folder.path() / "edited.mtl").string();
-  LiveViewer live(cornellBox("wait converged\nreflectance red 0.1,0.2,0.7\nsave-materials " + file + "\n"));
+  LiveViewer live(boxToEdit("wait converged\nreflectance red 0.1,0.2,0.7\nsave-materials " + file + "\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
   // The scene with this file in the place of its own is the same.
   std::filesystem::copy_file(std::filesystem::path(UNSHOT_SOURCE_DIR) / "assets/cornell_box.obj",
@@ -174,7 +174,7 @@ TEST(Materials, AreSavedAsTheyAreShown) {
 }
 
 TEST(Materials, TheLightInThePanelIsSwitched) {
-  LiveViewer live(cornellBox("wait converged\nmaterials on\n"));
+  LiveViewer live(boxToEdit("wait converged\nmaterials on\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
   live->ui().material = live->edits().find("light");
   live.draw();
@@ -193,7 +193,7 @@ TEST(Materials, TheLightInThePanelIsSwitched) {
 }
 
 TEST(Materials, WhatIsPickedIsTheOneToBeChanged) {
-  LiveViewer live(cornellBox("wait converged\n"));
+  LiveViewer live(boxToEdit("wait converged\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone() && live->nextFrame(0) > 1e30; }));
   std::set<std::string> picked;
   for (const char* at : {"0.1,0.5", "0.3,0.5", "0.5,0.45", "0.5,0.5", "0.7,0.5", "0.9,0.5"}) {
@@ -211,7 +211,7 @@ TEST(Materials, WhatIsPickedIsTheOneToBeChanged) {
 
 // What is remembered stays comparable, since the mesh is the same.
 TEST(Materials, TheLightBeforeAnEditCanBeComparedWith) {
-  LiveViewer live(cornellBox("wait converged\nremember\nreflectance red 0.1,0.2,0.7\nwait converged\n"));
+  LiveViewer live(boxToEdit("wait converged\nremember\nreflectance red 0.1,0.2,0.7\nwait converged\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
   ASSERT_TRUE(carriedOut(live));
   EXPECT_TRUE(live->ui().settings.view.reference);

@@ -10,7 +10,7 @@
 namespace unshot {
 namespace {
 
-constexpr double kHeight = 720;
+constexpr double kWindowHeight = 720;
 constexpr double kFrame = 1.0 / 60;
 
 // A scene of this size around the origin, seen from the front and a little above, in a frame turned so that
@@ -53,7 +53,7 @@ glm::dvec2 seenAt(const Camera& camera, const glm::dvec3& point) {
   const ViewBasis basis = viewBasis(camera);
   const glm::dvec3 sight = point - camera.eye;
   const double depth = glm::dot(sight, basis.forward);
-  const double pixels = kHeight / 2 / std::tan(camera.fov_deg * glm::pi<double>() / 360);
+  const double pixels = kWindowHeight / 2 / std::tan(camera.fov_deg * glm::pi<double>() / 360);
   return {pixels * glm::dot(sight, basis.right) / depth, -pixels * glm::dot(sight, basis.up) / depth};
 }
 
@@ -65,7 +65,7 @@ class EveryPlace : public testing::TestWithParam<Place> {
 
 TEST_P(EveryPlace, OrbitKeepsTargetAndDistance) {
   const Camera before = navigator_.camera();
-  for (int i = 0; i < 200; ++i) navigator_.orbit({7.0 * (i % 5 - 1), 5.0 * (i % 3 - 1)}, kHeight);
+  for (int i = 0; i < 200; ++i) navigator_.orbit({7.0 * (i % 5 - 1), 5.0 * (i % 3 - 1)}, kWindowHeight);
   const Camera& after = navigator_.camera();
   EXPECT_EQ(after.at, before.at);
   EXPECT_NEAR(distance(after), distance(before), 1e-9 * size());
@@ -74,12 +74,12 @@ TEST_P(EveryPlace, OrbitKeepsTargetAndDistance) {
 
 TEST_P(EveryPlace, OrbitAcrossTheHeightIsHalfATurnAndSidewaysKeepsThePitch) {
   const Camera before = navigator_.camera();
-  navigator_.orbit({kHeight, 0}, kHeight);
+  navigator_.orbit({kWindowHeight, 0}, kWindowHeight);
   EXPECT_NEAR(sineOfPitch(navigator_.camera()), sineOfPitch(before), 1e-12);
   const glm::dvec3 up = glm::normalize(before.up);
   const auto level = [&](const glm::dvec3& v) { return glm::normalize(v - glm::dot(v, up) * up); };
   EXPECT_NEAR(glm::dot(level(forward(navigator_.camera())), level(forward(before))), -1, 1e-9);
-  navigator_.orbit({kHeight, 0}, kHeight);
+  navigator_.orbit({kWindowHeight, 0}, kWindowHeight);
   EXPECT_LT(glm::length(navigator_.camera().eye - before.eye), 1e-9 * size());
 }
 
@@ -90,7 +90,7 @@ TEST_P(EveryPlace, OrbitAndLookStopShortOfThePoles) {
       const glm::dvec3 right = viewBasis(navigator.camera()).right;
       for (int i = 0; i < 60; ++i) {
         const glm::dvec2 motion(0, way * 40);
-        around ? navigator.orbit(motion, kHeight) : navigator.look(motion, kHeight);
+        around ? navigator.orbit(motion, kWindowHeight) : navigator.look(motion, kWindowHeight);
         ASSERT_GT(glm::dot(viewBasis(navigator.camera()).right, right), 0.999) << "flipped over the pole";
       }
       const double steep = std::abs(sineOfPitch(navigator.camera()));
@@ -102,7 +102,7 @@ TEST_P(EveryPlace, OrbitAndLookStopShortOfThePoles) {
 
 TEST_P(EveryPlace, LookKeepsTheEyeAndTheDistance) {
   const Camera before = navigator_.camera();
-  for (int i = 0; i < 100; ++i) navigator_.look({3.0 * (i % 7 - 2), 2.0 * (i % 3 - 1)}, kHeight);
+  for (int i = 0; i < 100; ++i) navigator_.look({3.0 * (i % 7 - 2), 2.0 * (i % 3 - 1)}, kWindowHeight);
   const Camera& after = navigator_.camera();
   EXPECT_EQ(after.eye, before.eye);
   EXPECT_NEAR(distance(after), distance(before), 1e-9 * size());
@@ -113,7 +113,7 @@ TEST_P(EveryPlace, PanKeepsTheTargetUnderTheMouse) {
   const Camera before = navigator_.camera();
   glm::dvec2 moved(0.0);
   for (const glm::dvec2& motion : {glm::dvec2(100, 0), glm::dvec2(-30, 55), glm::dvec2(13, -170)}) {
-    navigator_.pan(motion, kHeight);
+    navigator_.pan(motion, kWindowHeight);
     moved += motion;
     const glm::dvec2 seen = seenAt(navigator_.camera(), before.at);
     EXPECT_NEAR(seen.x, moved.x, 1);
@@ -242,7 +242,7 @@ TEST(Navigator, CopesWithNonsense) {
   camera.at = camera.eye;
   navigator.reset(camera, boundsOf(1));
   navigator.zoom(3);
-  navigator.pan({10, 10}, kHeight);
+  navigator.pan({10, 10}, kWindowHeight);
   const glm::dvec3 eye = navigator.camera().eye;
   EXPECT_TRUE(std::isfinite(eye.x) && std::isfinite(eye.y) && std::isfinite(eye.z));
 }

@@ -6,8 +6,10 @@
 
 #include <glm/geometric.hpp>
 
+#include "gui/support/panel.h"
 #include "gui/support/program_pictures.h"
 #include "render/camera.h"
+#include "support/assets.h"
 #include "support/live_viewer.h"
 #include "viewer/scene_area.h"
 
@@ -15,6 +17,9 @@ namespace unshot {
 namespace {
 
 using testing::HasSubstr;
+using testing_support::kCornellBox;
+using testing_support::kPanel;
+using testing_support::kTwoPatches;
 using testing_support::LiveViewer;
 using testing_support::picture;
 using testing_support::ProgramResult;
@@ -22,15 +27,10 @@ using testing_support::runProgram;
 using testing_support::runScript;
 using testing_support::TempFolder;
 
-const std::string kCornellBox = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
-const std::string kTwoPatches = std::string(UNSHOT_SOURCE_DIR) + "/assets/two_patches.obj";
-
-constexpr int kPanel = 304;  // at scale 1 [px]
-
 // In the picture that the scene's own camera makes: floor in front of the blocks.
 const std::string kFloor = "pick 0.5,0.93\n";
 
-LiveViewer::Options cornellBox(const std::string& script = {}) {
+LiveViewer::Options boxToPickFrom(const std::string& script = {}) {
   LiveViewer::Options options;
   options.scene = kCornellBox;
   options.solve.elements = 300;
@@ -74,7 +74,7 @@ void click(LiveViewer& live, const ImVec2& at, const ImVec2& drag = {0, 0}) {
 }
 
 TEST(Picking, ShowsWhatProbesShowAndFollowsTheLight) {
-  LiveViewer live(cornellBox("pause on\nstep 2\nwait shots 2\n" + kFloor));
+  LiveViewer live(boxToPickFrom("pause on\nstep 2\nwait shots 2\n" + kFloor));
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
   expectFloor(live);
   const PickedPoint first = picked(live);
@@ -105,7 +105,7 @@ TEST(Picking, ShowsWhatProbesShowAndFollowsTheLight) {
 }
 
 TEST(Picking, IsPlacedAnewOnAnotherMeshAndEndsWithTheScene) {
-  LiveViewer live(cornellBox("wait converged\n" + kFloor + "pin-probe\n"));
+  LiveViewer live(boxToPickFrom("wait converged\n" + kFloor + "pin-probe\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
   const PickedPoint before = picked(live);
   const auto area = [&] { return live->state().snapshot->mesh->element_area[picked(live).pick.element]; };
@@ -129,7 +129,7 @@ TEST(Picking, IsPlacedAnewOnAnotherMeshAndEndsWithTheScene) {
 }
 
 TEST(Picking, ShowsAnEditedMaterial) {
-  LiveViewer live(cornellBox("wait converged\n" + kFloor + "reflectance white 0.2,0.3,0.4\n"));
+  LiveViewer live(boxToPickFrom("wait converged\n" + kFloor + "reflectance white 0.2,0.3,0.4\n"));
   const auto reflectance = [&] { return *pickedQuantities()[0].of(picked(live), *live->state().snapshot); };
   ASSERT_TRUE(live.until([&] { return live->scriptDone() && reflectance() == glm::dvec3(0.2, 0.3, 0.4); }));
   expectFloor(live);
@@ -138,7 +138,7 @@ TEST(Picking, ShowsAnEditedMaterial) {
 }
 
 TEST(Picking, AClickPicksADragDoesNotAndEscapeUnpicks) {
-  LiveViewer live(cornellBox("wait converged\nhelp off\n"));
+  LiveViewer live(boxToPickFrom("wait converged\nhelp off\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone() && live->nextFrame(0) > 1e30; }));
   const float width = 700;
   const ImVec2 floor{0.5f * width, 0.93f * 700};
@@ -163,7 +163,7 @@ TEST(Picking, AClickPicksADragDoesNotAndEscapeUnpicks) {
 }
 
 TEST(Picking, AClickRightAfterAMoveLeavesTheCameraAlone) {
-  LiveViewer live(cornellBox("wait converged\nhelp off\n"));
+  LiveViewer live(boxToPickFrom("wait converged\nhelp off\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone() && live->nextFrame(0) > 1e30; }));
   const Camera before = live->camera();
   ImGuiIO& io = ImGui::GetIO();
@@ -180,7 +180,7 @@ TEST(Picking, AClickRightAfterAMoveLeavesTheCameraAlone) {
 }
 
 TEST(Picking, LooksAtThePointAndOrbitsAroundIt) {
-  LiveViewer live(cornellBox("wait converged\n" + kFloor + "focus-picked\n"));
+  LiveViewer live(boxToPickFrom("wait converged\n" + kFloor + "focus-picked\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
   const glm::dvec3 point = picked(live).pick.position;
   EXPECT_EQ(live->camera().at, point);
@@ -190,7 +190,7 @@ TEST(Picking, LooksAtThePointAndOrbitsAroundIt) {
 }
 
 TEST(Picking, InARaceBothPicturesAreOfOneScene) {
-  LiveViewer live(cornellBox("wait converged\nrace jacobi\nwait converged\n"));
+  LiveViewer live(boxToPickFrom("wait converged\nrace jacobi\nwait converged\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone() && live->nextFrame(0) > 1e30; }));
   const SceneSplit split = splitScene(700, true);
   glm::dvec3 points[2];
@@ -203,7 +203,7 @@ TEST(Picking, InARaceBothPicturesAreOfOneScene) {
 }
 
 TEST(Picking, WithoutAPickActionsSayWhatToDo) {
-  LiveViewer live(cornellBox("wait converged\n"));
+  LiveViewer live(boxToPickFrom("wait converged\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
   for (const std::string action :
        {"pin-probe", "copy-values", "focus-picked", "save-probes", "unpin-probe"}) {
@@ -215,7 +215,7 @@ TEST(Picking, WithoutAPickActionsSayWhatToDo) {
 }
 
 TEST(Picking, CopiesValuesAsText) {
-  LiveViewer live(cornellBox("wait converged\n" + kFloor + "copy-values\n"));
+  LiveViewer live(boxToPickFrom("wait converged\n" + kFloor + "copy-values\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
   const std::string text = ImGui::GetClipboardText();
   for (const char* part : {"Surface\tno. ", ", front\n", "Material\twhite\n", "Radiosity B [W/m\u00b2]\t",
@@ -269,7 +269,7 @@ class PanelOfPicking : public testing::TestWithParam<double> {};
 
 TEST_P(PanelOfPicking, ClipsNothing) {
   LiveViewer::Options options =
-      cornellBox("wait converged\n" + kFloor + "pin-probe\nscale " + std::to_string(GetParam()) + "\n");
+      boxToPickFrom("wait converged\n" + kFloor + "pin-probe\nscale " + std::to_string(GetParam()) + "\n");
   options.width = static_cast<int>(1204 * GetParam());
   options.height = static_cast<int>(900 * GetParam());
   LiveViewer live(options);

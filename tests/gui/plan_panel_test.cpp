@@ -6,6 +6,7 @@
 
 #include <cstdio>
 
+#include "gui/support/panel.h"
 #include "support/live_viewer.h"
 
 namespace unshot {
@@ -16,9 +17,10 @@ using testing::ElementsAre;
 using testing::Field;
 using testing::HasSubstr;
 using testing::StartsWith;
+using testing_support::idOf;
 using testing_support::LiveViewer;
 
-LiveViewer::Options cornellBox(const std::string& script = {}) {
+LiveViewer::Options boxWithAPlan(const std::string& script = {}) {
   LiveViewer::Options options;
   options.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
   options.solve.elements = 200;
@@ -36,8 +38,6 @@ std::vector<std::string> keysLeftOut(LiveViewer& live) {
   }
   return out;
 }
-
-ImGuiID idOf(std::string_view label, ImGuiID within) { return ImHashStr(label.data(), label.size(), within); }
 
 ImGuiID sectionsOfPanel() {
   char name[32];
@@ -61,7 +61,7 @@ bool solvedAnew(LiveViewer& live, std::uint64_t epoch) {
 }
 
 TEST(PlanPanel, SaysWhyHowMuchAndHowSure) {
-  LiveViewer live(cornellBox());
+  LiveViewer live(boxWithAPlan());
   ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
   const std::vector<PlanLine> lines = planLines(*live->state().facts);
   ASSERT_EQ(lines.size(), live->state().facts->plan.size());
@@ -75,11 +75,11 @@ TEST(PlanPanel, SaysWhyHowMuchAndHowSure) {
 }
 
 TEST(PlanPanel, ALineIsOpenedAndSwitchedOffAndOn) {
-  LiveViewer live(cornellBox("wait converged\nleft-out on\n"));
+  LiveViewer live(boxWithAPlan("wait converged\nleft-out on\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
   live.draw();
   live.draw();
-  const ImGuiID line = idOf("###line", idOf(plan_keys::kOuterSides, sectionsOfPanel()));
+  const ImGuiID line = idOf("###line", idOf(std::string(plan_keys::kOuterSides), sectionsOfPanel()));
   click(live, line);
   for (const bool done : {true, false}) {
     const std::uint64_t epoch = live->state().epoch;
@@ -93,7 +93,7 @@ TEST(PlanPanel, ALineIsOpenedAndSwitchedOffAndOn) {
 }
 
 TEST(PlanPanel, EverythingIsSwitchedAtOnce) {
-  LiveViewer live(cornellBox("wait converged\nleft-out on\n"));
+  LiveViewer live(boxWithAPlan("wait converged\nleft-out on\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
   const std::vector<std::string> before = keysLeftOut(live);
   const std::uint64_t epoch = live->state().epoch;
@@ -111,7 +111,7 @@ TEST(PlanPanel, EverythingIsSwitchedAtOnce) {
 
 TEST(PlanPanel, ScriptsSwitchByKey) {
   LiveViewer live(
-      cornellBox("wait converged\ndo outer-sides on\nwait converged\ndo triangles\nwait converged\n"));
+      boxWithAPlan("wait converged\ndo outer-sides on\nwait converged\ndo triangles\nwait converged\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
   const Mesh& mesh = *live->state().snapshot->mesh;
   EXPECT_EQ(mesh.sides.size(), 2 * mesh.surfaces.size());

@@ -7,12 +7,15 @@
 #include "gui/support/program_pictures.h"
 #include "render/display_modes.h"
 #include "solver/modes.h"
+#include "support/assets.h"
 #include "support/scenes.h"
 
 namespace unshot {
 namespace {
 
 using testing::HasSubstr;
+using testing_support::kCornellBox;
+using testing_support::kTwoPatches;
 using testing_support::lightDifference;
 using testing_support::picture;
 using testing_support::ProgramResult;
@@ -21,17 +24,10 @@ using testing_support::runProgram;
 using testing_support::runScript;
 using testing_support::showsSomething;
 using testing_support::TempFolder;
+using testing_support::with;
 using testing_support::writeRoom;
 
-const std::string kCornellBox = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
-const std::string kTwoPatches = std::string(UNSHOT_SOURCE_DIR) + "/assets/two_patches.obj";
-
 const std::vector<std::string> kSmall{kCornellBox, "--elements", "300", "--size", "400x300"};
-
-std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
-}
 
 TEST(Program, OpensConvergesAndTakesScreenshots) {
   const TempFolder folder;

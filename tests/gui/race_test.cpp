@@ -3,12 +3,14 @@
 #include <imgui_internal.h>
 
 #include "gui/support/program_pictures.h"
+#include "support/assets.h"
 #include "support/live_viewer.h"
 #include "viewer/scene_area.h"
 
 namespace unshot {
 namespace {
 
+using testing_support::kCornellBox;
 using testing_support::lightDifference;
 using testing_support::LiveViewer;
 using testing_support::meanLight;
@@ -16,8 +18,6 @@ using testing_support::picture;
 using testing_support::ProgramResult;
 using testing_support::runScript;
 using testing_support::TempFolder;
-
-const std::string kCornellBox = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
 
 ImageF columns(const ImageF& image, int from, int count) {
   ImageF out{count, image.height, {}};

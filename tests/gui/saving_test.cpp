@@ -18,11 +18,6 @@ using testing::Not;
 const std::vector<std::string> kCommon{"room.obj", "--elements", "600",   "--form-factors",
                                        "rays",     "--error",    "0.0001"};
 
-std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
 /// The light of `saved` once it has converged, in a file `name`.
 void solveOn(const TempFolder& folder, const std::string& saved, const std::string& name) {
   const ProgramResult run = runProgram(folder, {"solve", "room.obj", "--resume", saved, "--ply", name});

@@ -10,12 +10,14 @@
 #include <cstdlib>
 
 #include "base/srgb.h"
+#include "gui/support/panel.h"
 #include "gui/support/program_pictures.h"
 
 namespace unshot {
 namespace {
 
 namespace fs = std::filesystem;
+using testing_support::kPanel;
 using testing_support::ProgramResult;
 using testing_support::runScript;
 using testing_support::TempFolder;
@@ -57,9 +59,6 @@ constexpr const char* kScript =
 constexpr int kDifferent = 40;           // of 255, in one channel
 constexpr double kMostInPanel = 20;      // pixels that may be different, at scale 1
 constexpr double kMostInScene = 0.0005;  // of the scene's pixels; a line of text takes three times as many
-
-// The panel's width at scale 1, as app/viewer/panels/panels.cpp has it, for the two tolerances.
-constexpr int kPanel = 304;
 
 constexpr std::array<float, 3> kMask{1, 0, 1};
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "formfactor/methods.h"
+#include "gui/support/panel.h"
 #include "gui/support/program_pictures.h"
 #include "gui/support/screen.h"
 #include "render/display_modes.h"
@@ -96,7 +97,7 @@ TEST(WindowScript, EveryDisplayModeShowsAPictureOfItsOwn) {
 /// apart (app/viewer/panels/theme.cpp).
 class PanelChoices : public testing::Test {
  protected:
-  static constexpr int kWidth = 900, kPanel = 304, kLeft = kWidth - kPanel;
+  static constexpr int kWidth = 900, kLeft = kWidth - kPanel;
   static constexpr int kScene = 21, kMode = 125, kMethod = 177, kShow = 551;
 
   void click(int x, int y) {

@@ -9,6 +9,7 @@
 #include "export/probes.h"
 #include "mesh/lit.h"
 #include "support/many_rooms.h"
+#include "support/plan_pairs.h"
 #include "support/sanitized.h"
 #include "support/solving.h"
 
@@ -19,12 +20,7 @@ using namespace testing_support;
 
 constexpr int kRooms = 12, kRings = 20, kRingsOfOthers = 36;
 
-SolveOptions soonest() {
-  SolveOptions options;
-  options.soonest = true;
-  options.error = 0.02;
-  return options;
-}
+constexpr double kAskedError = 0.02;
 
 /// On walls, floor and ball of a room.
 std::vector<Probe> probesIn(int room) {
@@ -53,7 +49,7 @@ Timed timed(int rooms) {
   Scene scene = manyRooms(rooms, kRings, kRingsOfOthers);
   const double began = cpuSeconds();
   Timed out;
-  out.solve = solved(std::move(scene), soonest());
+  out.solve = solved(std::move(scene), soonest(kAskedError));
   out.cpu_seconds = cpuSeconds() - began;
   return out;
 }
@@ -81,7 +77,7 @@ TEST(DarkIslands, TakeNoPartInTheSolution) {
     light += glm::dot(*a[k], *a[k]);
   }
   measured("apart", std::sqrt(apart / light));
-  EXPECT_LT(std::sqrt(apart / light), soonest().error);
+  EXPECT_LT(std::sqrt(apart / light), kAskedError);
 
   for (const int k : {1, 6, kRooms - 1}) {
     for (const auto& dark : answerProbes(many.solve->snapshot(), probesIn(k), true)) {
@@ -117,10 +113,11 @@ TEST(DarkIslands, ARoomBehindACrackIsNone) {
     return std::any_of(solve.plan().begin(), solve.plan().end(),
                        [](const PlanDecision& d) { return d.key == plan_keys::kDarkSides; });
   };
-  const auto shut = solved(twoRooms(0), soonest()), ajar = solved(twoRooms(1e-4), soonest());
+  const auto shut = solved(twoRooms(0), soonest(kAskedError)),
+             ajar = solved(twoRooms(1e-4), soonest(kAskedError));
   EXPECT_TRUE(plans(*shut));
   EXPECT_FALSE(plans(*ajar));
-  SolveOptions all = soonest();
+  SolveOptions all = soonest(kAskedError);
   all.do_anyway = {std::string(plan_keys::kDarkSides)};
   const auto anyway = solved(twoRooms(1e-4), all);
   ASSERT_EQ(ajar->mesh().sides.size(), anyway->mesh().sides.size());

@@ -15,7 +15,7 @@ namespace {
 using namespace testing_support;
 
 // UNSHOT_RANDOM_SCENES=N looks at the first N scenes, in place of these.
-constexpr std::uint64_t kScenes = 200;
+constexpr std::uint64_t kRandomScenes = 200;
 constexpr double kMostSeconds = 120;  // of one scene; 0.1 s are usual
 // Of the emitted power: rounding of sums, and of form factors to single precision.
 constexpr double kEnergy = 1e-6;
@@ -104,7 +104,7 @@ class RandomScenes : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(RandomScenes, AreSolvedWithAllLawsHeld) {
   const char* const wanted = std::getenv("UNSHOT_RANDOM_SCENES");
-  const std::uint64_t scenes = wanted ? std::strtoull(wanted, nullptr, 10) : kScenes;
+  const std::uint64_t scenes = wanted ? std::strtoull(wanted, nullptr, 10) : kRandomScenes;
   double slowest = 0;
   std::uint64_t slowest_seed = 0, looked_at = 0, compared = 0;
   for (std::uint64_t seed = GetParam(); seed < scenes; seed += kParts) {

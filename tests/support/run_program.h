@@ -94,6 +94,13 @@ class ProgramRun {
   int status_ = -1;
 };
 
+/// Arguments and further ones after them.
+inline std::vector<std::string> with(std::vector<std::string> arguments,
+                                     const std::vector<std::string>& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
 inline ProgramResult runProgram(const TempFolder& folder, const std::vector<std::string>& arguments,
                                 const ProgramLimits& limits = {}) {
   return ProgramRun(folder.path(), arguments, limits).wait();

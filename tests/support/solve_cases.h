@@ -39,7 +39,7 @@ inline int run(Solve& solve, int most_steps = 1'000'000) {
 }
 
 /// RMS of the difference over RMS of `b`.
-inline double differenceOf(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
+inline double rmsDifference(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
   double off = 0, all = 0;
   for (std::size_t v = 0; v < b.size(); ++v) {
     const glm::dvec3 d = glm::dvec3(a[v]) - glm::dvec3(b[v]);

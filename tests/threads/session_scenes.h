@@ -7,13 +7,10 @@
 
 #include "scene/obj_reader.h"
 #include "session/solve.h"
+#include "support/assets.h"
 #include "support/session_watch.h"
 
 namespace unshot::testing_support {
-
-inline std::filesystem::path asset(const std::string& name) {
-  return std::filesystem::path(UNSHOT_SOURCE_DIR) / "assets" / name;
-}
 
 inline SolveOptions closedForm(std::uint64_t elements, double error, const std::string& mode = "auto") {
   SolveOptions options;

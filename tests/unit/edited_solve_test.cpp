@@ -19,7 +19,7 @@ using namespace testing_support;
 enum Materials : std::size_t { kWhite, kRed, kLight, kBlack };
 
 // A closed room with three faces of a block in it, a light below the ceiling and a black floor.
-Scene room(double reflectance = 0.7) {
+Scene roomToEdit(double reflectance = 0.7) {
   SceneBuilder b;
   const auto white = b.material("white", glm::dvec3(reflectance)),
              red = b.material("red", reflectance * glm::dvec3(1, 0.2, 0.2)),
@@ -31,12 +31,12 @@ Scene room(double reflectance = 0.7) {
   return b.finish();
 }
 
-struct Case {
+struct EditCase {
   std::string_view name;
   SolveCase solve;
 };
 
-SolveOptions optionsOf(const SolveCase& c) { return optionsOf(c, 0.02); }
+SolveOptions optionsToEdit(const SolveCase& c) { return optionsOf(c, 0.02); }
 
 gl::Context& context() { return sharedContext(); }
 
@@ -48,7 +48,7 @@ std::unique_ptr<Solve> edited(Solve& before, const std::function<void(std::vecto
 
 // The same mesh and materials from nothing shot.
 std::unique_ptr<Solve> afresh(const Solve& solve, const SolveCase& c) {
-  SolveOptions options = optionsOf(c);
+  SolveOptions options = optionsToEdit(c);
   options.mesh = solve.snapshot().mesh;
   return solved(solve.scene(), options);
 }
@@ -65,17 +65,17 @@ void expectAsAfresh(Solve& solve, const SolveCase& c) {
   const auto other = afresh(solve, c);
   const Snapshot a = solve.snapshot(), b = other->snapshot();
   const double bounds = solve.measures().solverBound() + other->measures().solverBound();
-  EXPECT_LE(differenceOf(a.irradiance, b.irradiance), kNorms * bounds + kRounding);
+  EXPECT_LE(rmsDifference(a.irradiance, b.irradiance), kNorms * bounds + kRounding);
   // Direct light takes no iteration.
   ASSERT_TRUE(a.direct && b.direct);
-  EXPECT_LE(differenceOf(*a.direct, *b.direct), kRounding);
+  EXPECT_LE(rmsDifference(*a.direct, *b.direct), kRounding);
 }
 
-class Edits : public testing::TestWithParam<Case> {};
+class Edits : public testing::TestWithParam<EditCase> {};
 
 TEST_P(Edits, EndAsASolveThatBeganWithThem) {
   const SolveCase& c = GetParam().solve;
-  auto solve = begun(room(c.white), optionsOf(c));
+  auto solve = begun(roomToEdit(c.white), optionsToEdit(c));
   run(*solve);
   ASSERT_EQ(solve->state(), SolveState::kConverged) << solve->stoppedBy();
   const auto edit = [&](const char* what, const std::function<void(std::vector<Material>&)>& change,
@@ -112,20 +112,20 @@ TEST_P(Edits, EndAsASolveThatBeganWithThem) {
 
 INSTANTIATE_TEST_SUITE_P(
     Solves, Edits,
-    testing::Values(Case{"Hemicube", {"hemicube", "southwell"}},
-                    Case{"HemicubeByGmres", {"hemicube", "gmres"}},
-                    Case{"KeepingNothing", {"rays", "southwell", false, 0}},
-                    Case{"Visibility", {"hemicube-visibility", "jacobi"}},
-                    Case{"Rays", {"rays", "conjugate-gradient"}},
-                    Case{"FollowingLight", {"rays", "southwell", true}},
-                    Case{"UnderASky", {"rays", "chebyshev", false, std::size_t{1} << 30, true}},
-                    Case{"WhiteRoom", {"rays", "jacobi", false, std::size_t{1} << 30, false, 0.95}},
-                    Case{"Direct", {"rays", "direct"}}),
+    testing::Values(EditCase{"Hemicube", {"hemicube", "southwell"}},
+                    EditCase{"HemicubeByGmres", {"hemicube", "gmres"}},
+                    EditCase{"KeepingNothing", {"rays", "southwell", false, 0}},
+                    EditCase{"Visibility", {"hemicube-visibility", "jacobi"}},
+                    EditCase{"Rays", {"rays", "conjugate-gradient"}},
+                    EditCase{"FollowingLight", {"rays", "southwell", true}},
+                    EditCase{"UnderASky", {"rays", "chebyshev", false, std::size_t{1} << 30, true}},
+                    EditCase{"WhiteRoom", {"rays", "jacobi", false, std::size_t{1} << 30, false, 0.95}},
+                    EditCase{"Direct", {"rays", "direct"}}),
     [](const auto& row) { return std::string(row.param.name); });
 
 TEST(EditedSolves, WithoutALightAreDarkAtOnceAndComeBack) {
   const SolveCase c{"rays", "southwell"};
-  auto solve = solved(room(), optionsOf(c));
+  auto solve = solved(roomToEdit(), optionsToEdit(c));
   solve = edited(*solve, [](auto& m) { m[kLight].emission = glm::dvec3(0.0); });
   EXPECT_EQ(solve->state(), SolveState::kConverged);
   EXPECT_EQ(solve->stoppedBy(), "no light");
@@ -137,7 +137,7 @@ TEST(EditedSolves, WithoutALightAreDarkAtOnceAndComeBack) {
 
 TEST(EditedSolves, SayWhereNothingDiesOutAndRecover) {
   const SolveCase c{"rays", "southwell"};
-  auto solve = solved(room(), optionsOf(c));
+  auto solve = solved(roomToEdit(), optionsToEdit(c));
   solve = edited(*solve, [](auto& m) {
     for (Material& material : m) material.reflectance = glm::dvec3(1.0);
   });
@@ -151,12 +151,12 @@ TEST(EditedSolves, SayWhereNothingDiesOutAndRecover) {
 TEST(EditedSolves, AreSavedAndGoOnWithTheirMaterials) {
   const SolveCase c{"rays", "southwell"};
   const TempFolder folder;
-  auto solve = solved(room(), optionsOf(c));
+  auto solve = solved(roomToEdit(), optionsToEdit(c));
   solve = edited(*solve, [](auto& m) { m[kRed].reflectance = {0.1, 0.8, 0.1}; });
   run(*solve, 5);
   solve->save(folder.path() / "solve");
   const auto resume = [&] {
-    return std::make_unique<Solve>(room(), optionsOf(c), context, CancelToken{},
+    return std::make_unique<Solve>(roomToEdit(), optionsToEdit(c), context, CancelToken{},
                                    readSavedSolve(folder.path() / "solve"));
   };
   auto next = resume();
@@ -170,7 +170,7 @@ TEST(EditedSolves, AreSavedAndGoOnWithTheirMaterials) {
 
 TEST(EditedSolves, RefuseWhatIsNoMaterialAndStayAsTheyAre) {
   const SolveCase c{"rays", "southwell"};
-  auto solve = solved(room(), optionsOf(c));
+  auto solve = solved(roomToEdit(), optionsToEdit(c));
   const std::vector<glm::vec3> before = solve->snapshot().irradiance;
   const double infinite = std::numeric_limits<double>::infinity(), none = std::nan("");
   for (const double value : {-0.1, 1.1, infinite, none}) {
@@ -193,7 +193,7 @@ TEST(EditedSolves, TakeAnotherMeshWhereLightBeginsInTheDark) {
   addBox(b, {block, block, block, block, block, block}, {0.2, 0.2, 0.2}, {0.4, 0.4, 0.4}, false);
   b.quad(inside, {0.3, 0.3, 0.3}, {0.2, 0, 0}, {0, 0, 0.2});
   b.quad(light, {0.7, 0.9, 0.7}, {0.2, 0, 0}, {0, 0, 0.2});
-  const auto solve = solved(b.finish(), optionsOf(SolveCase{"rays", "southwell"}));
+  const auto solve = solved(b.finish(), optionsToEdit(SolveCase{"rays", "southwell"}));
   const auto may = [&](std::size_t material) {
     std::vector<Material> materials = solve->scene().materials;
     materials[material].emission = glm::dvec3(1.0);

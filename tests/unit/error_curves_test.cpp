@@ -9,16 +9,17 @@
 #include "report/curve_record.h"
 #include "report/curve_runs.h"
 #include "report/page.h"
-#include "scene/obj_reader.h"
 #include "solver/modes.h"
+#include "support/assets.h"
 
 namespace unshot {
 namespace {
 
 using testing::HasSubstr;
 using testing::Not;
+using testing_support::assetScene;
 
-CurvePoint pointOf(double seconds, double error, std::uint64_t rows = 0) {
+CurvePoint curvePointOf(double seconds, double error, std::uint64_t rows = 0) {
   CurvePoint point;
   point.cpu_seconds = seconds;
   point.rows = rows;
@@ -32,7 +33,7 @@ std::optional<double> timeTo(const std::vector<CurvePoint>& points, double level
 
 TEST(CostToReach, IsExactOnAPowerLaw) {
   std::vector<CurvePoint> points;
-  for (double t = 0.01; t < 100; t *= 1.3) points.push_back(pointOf(t, std::pow(t / 0.01, -1.5)));
+  for (double t = 0.01; t < 100; t *= 1.3) points.push_back(curvePointOf(t, std::pow(t / 0.01, -1.5)));
   for (const double level : kErrorLevels) {
     const double exact = 0.01 * std::pow(level, -1 / 1.5);
     ASSERT_TRUE(timeTo(points, level));
@@ -41,24 +42,25 @@ TEST(CostToReach, IsExactOnAPowerLaw) {
 }
 
 TEST(CostToReach, AJumpIsReachedWhereItLands) {
-  const std::vector<CurvePoint> points{pointOf(1, 0.5), pointOf(2, 0.4), pointOf(3, 1e-14), pointOf(4, 0)};
+  const std::vector<CurvePoint> points{curvePointOf(1, 0.5), curvePointOf(2, 0.4), curvePointOf(3, 1e-14),
+                                       curvePointOf(4, 0)};
   EXPECT_EQ(timeTo(points, 0.4), 2);
   EXPECT_EQ(timeTo(points, 0.1), 3);
   EXPECT_EQ(timeTo(points, 1e-15), 4);
 }
 
 TEST(CostToReach, NothingWhereItIsNotReachedOrNotMeasured) {
-  std::vector<CurvePoint> points{pointOf(1, 0.5), pointOf(2, 0.4)};
+  std::vector<CurvePoint> points{curvePointOf(1, 0.5), curvePointOf(2, 0.4)};
   EXPECT_FALSE(timeTo(points, 0.3));
   EXPECT_FALSE(timeTo({}, 0.3));
   EXPECT_FALSE(costToReach(points, 0.5, totalErrorOf, busySecondsOf));
-  points.insert(points.begin() + 1, pointOf(1.5, 0));
+  points.insert(points.begin() + 1, curvePointOf(1.5, 0));
   points[1].solver.reset();
   EXPECT_EQ(timeTo(points, 0.4), 2) << "points without a value are passed over";
 }
 
 TEST(PointAtCost, IsTheLastThatIsPaidFor) {
-  const std::vector<CurvePoint> points{pointOf(1, 1, 0), pointOf(2, 1, 3), pointOf(4, 1, 3)};
+  const std::vector<CurvePoint> points{curvePointOf(1, 1, 0), curvePointOf(2, 1, 3), curvePointOf(4, 1, 3)};
   EXPECT_EQ(pointAtCost(points, 0.5, busySecondsOf), 0u);
   EXPECT_EQ(pointAtCost(points, 3.9, busySecondsOf), 1u);
   EXPECT_EQ(pointAtCost(points, 3, rowsOf), 2u);
@@ -124,8 +126,6 @@ TEST(ColumnStore, BeyondItsRoomColumnsAreComputedAgain) {
   EXPECT_LE(store.bytes(), 40u);
 }
 
-Scene asset(const char* name) { return readObj(std::filesystem::path(UNSHOT_SOURCE_DIR) / "assets" / name); }
-
 SolveOptions closedForm(double error, std::uint64_t elements) {
   SolveOptions options;
   options.form_factors = "closed-form";
@@ -143,7 +143,7 @@ bool goOn(double) { return true; }
 TEST(SolverError, OfJacobiInAFurnaceFallsByRhoWithEverySweep) {
   SolveOptions options = closedForm(1e-7, 400);
   options.mode = "jacobi";
-  Solve solve(asset("furnace.obj"), options, noContext);
+  Solve solve(assetScene("furnace.obj"), options, noContext);
   const std::vector<glm::dvec3> exact(solve.mesh().patch_count, glm::dvec3(1.0));
   EXPECT_NEAR(solverError(solve.mesh(), solve.patchRadiosity(), exact).nrmse, 1, 1e-12);
   for (std::uint64_t k = 1; k <= 10; ++k) {
@@ -159,7 +159,7 @@ TEST(SolverError, OfJacobiInAFurnaceFallsByRhoWithEverySweep) {
 }
 
 TEST(SolverError, OfTheExactSolutionIsZeroAndLampsDoNotCount) {
-  const Scene scene = asset("cornell_box.obj");
+  const Scene scene = assetScene("cornell_box.obj");
   SolveOptions options =
       closedForm(1e-6, 150);  // closed form: shadows are left out, which is all the same here
   CurveRuns runs(scene, options, noContext);
@@ -179,7 +179,7 @@ TEST(SolverError, OfTheExactSolutionIsZeroAndLampsDoNotCount) {
 class Curves : public testing::TestWithParam<std::string> {};
 
 TEST_P(Curves, FallFromAllToTheErrorAskedForBetweenTheirBounds) {
-  const Scene scene = asset("cornell_box.obj");
+  const Scene scene = assetScene("cornell_box.obj");
   CurveRuns runs(scene, closedForm(1e-4, 300), noContext);
   const ExactSolution exact = runs.solveExactly(60, goOn);
   ASSERT_FALSE(exact.radiosity.empty()) << exact.why_not;
@@ -231,7 +231,7 @@ INSTANTIATE_TEST_SUITE_P(Modes, Curves, testing::ValuesIn(modeKeys()), [](const 
 
 // Drafts of form factors make a system of their own, whose bounds say nothing of the one with full ones.
 TEST(CurveRuns, HaveBoundsOfTheSystemThatErrorsAreOf) {
-  const Scene scene = asset("cornell_box.obj");
+  const Scene scene = assetScene("cornell_box.obj");
   const auto context = gl::createContext("osmesa");
   context->makeCurrent();
   SolveOptions options = closedForm(1e-3, 600);
@@ -264,7 +264,7 @@ TEST(CurveRuns, HaveBoundsOfTheSystemThatErrorsAreOf) {
 }
 
 TEST(CurveRuns, WithoutLightThereIsNothingToMeasure) {
-  Scene scene = asset("furnace.obj");
+  Scene scene = assetScene("furnace.obj");
   for (Material& m : scene.materials) m.emission = glm::dvec3(0.0);
   SolveOptions options = closedForm(1e-3, 60);
   options.sky = glm::dvec3(0.0);
@@ -278,7 +278,7 @@ TEST(CurveRuns, WithoutLightThereIsNothingToMeasure) {
 }
 
 TEST(CurveRuns, EndsWhenToldTo) {
-  const Scene scene = asset("furnace.obj");
+  const Scene scene = assetScene("furnace.obj");
   CurveRuns runs(scene, closedForm(1e-3, 60), noContext);
   int left = 4;
   const auto stop = [&](double) { return --left > 0; };
@@ -295,7 +295,7 @@ TEST(Page, ShowsTextAsTextAndSaysWhatIsMissing) {
   record.exact.radiosity = {glm::dvec3(1.0)};
   ModeCurve curve;
   curve.mode = "jacobi";
-  curve.points = {pointOf(0.1, 1, 0), pointOf(1, 0.02, 100)};
+  curve.points = {curvePointOf(0.1, 1, 0), curvePointOf(1, 0.02, 100)};
   curve.runs = {{{0.1, 1}, {0.1, 1}}};
   record.curves = {curve, {}};
   record.curves[1].mode = "direct";

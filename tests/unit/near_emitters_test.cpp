@@ -17,7 +17,7 @@ namespace {
 
 using testing_support::solved;
 
-constexpr double kLamp = 0.1, kHeight = 0.3;
+constexpr double kLamp = 0.1, kLampHeight = 0.3;
 constexpr double kReflectance = 0.5, kEmission = 100;
 
 enum Surfaces : std::uint32_t { kGround, kNear, kFar, kBehind, kLampFace };
@@ -31,9 +31,9 @@ Scene slabs() {
   b.quad(grey, {-50, -20, -50}, 100.0 * z, 100.0 * x);
   b.quad(grey, {0, 0, 0}, z, x);
   b.quad(grey, {20, 0, 0}, z, x);
-  b.quad(grey, {0, kHeight + 0.2, 0}, z, x);
+  b.quad(grey, {0, kLampHeight + 0.2, 0}, z, x);
   const double at = 0.5 - kLamp / 2;
-  b.quad(lamp, {at, kHeight, at}, kLamp * x, kLamp * z);
+  b.quad(lamp, {at, kLampHeight, at}, kLamp * x, kLamp * z);
   return b.finish();
 }
 
@@ -46,7 +46,7 @@ MeshOptions shinesDown() {
 TEST(NearEmitters, OnlyWhatTheyLightIsCutFiner) {
   const Mesh mesh = buildMesh(slabs(), shinesDown());
   ASSERT_EQ(mesh.surfaces.size(), 5u);
-  EXPECT_EQ(mesh.surfaces[kNear].nu, std::round(1 / (kHeight / 3)));
+  EXPECT_EQ(mesh.surfaces[kNear].nu, std::round(1 / (kLampHeight / 3)));
   EXPECT_EQ(mesh.surfaces[kNear].nv, mesh.surfaces[kNear].nu);
   for (const Surfaces s : {kFar, kBehind, kLampFace}) EXPECT_EQ(mesh.surfaces[s].elements.count, 1u) << s;
   EXPECT_NEAR(mesh.surfaces[kGround].nu, 100, 3) << "far below";
@@ -90,7 +90,7 @@ TEST(NearEmitters, LightBesideALampIsRight) {
     const Snapshot snapshot = solve->snapshot();
     const double at = 0.5 - kLamp / 2, to = 0.5 + kLamp / 2;
     const std::vector<glm::dvec3> lamp{
-        {at, kHeight, at}, {to, kHeight, at}, {to, kHeight, to}, {at, kHeight, to}};
+        {at, kLampHeight, at}, {to, kLampHeight, at}, {to, kLampHeight, to}, {at, kLampHeight, to}};
     double squares = 0, of = 0;
     std::vector<glm::dvec3> scratch;
     for (std::size_t t = 0; t < mesh.triangle_element.size(); ++t) {

@@ -8,10 +8,10 @@ namespace {
 
 using ObjMaterials = ObjFileTest;
 
-constexpr std::string_view kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+constexpr std::string_view kFourVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
 
 std::string sceneWith(std::string_view library, std::string_view material) {
-  return "mtllib " + std::string(library) + "\n" + std::string(kTriangle) + "usemtl " +
+  return "mtllib " + std::string(library) + "\n" + std::string(kFourVertices) + "usemtl " +
          std::string(material) + "\nf 1 2 3\n";
 }
 
@@ -32,7 +32,7 @@ TEST_F(ObjMaterials, ReadsSeveralLibrariesOnSeveralLinesAndOnOne) {
   write("a.mtl", "newmtl a\nKd .1 .1 .1\n");
   write("b.mtl", "newmtl b\nKd .2 .2 .2\n");
   write("c.mtl", "newmtl c\nKd .3 .3 .3\n");
-  const Scene scene = read("mtllib a.mtl b.mtl\n" + std::string(kTriangle) +
+  const Scene scene = read("mtllib a.mtl b.mtl\n" + std::string(kFourVertices) +
                            "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 4\nmtllib c.mtl\nusemtl c\nf 1 3 4\n");
   EXPECT_NEAR(materialOf(scene, 0).reflectance.x, 0.1, 1e-12);
   EXPECT_NEAR(materialOf(scene, 1).reflectance.x, 0.2, 1e-12);
@@ -90,7 +90,7 @@ TEST_F(ObjMaterials, MakesUnknownMaterialsGrey) {
 }
 
 TEST_F(ObjMaterials, MakesFacesWithoutMaterialGrey) {
-  const Scene scene = read(std::string(kTriangle) + "f 1 2 3\nf 1 2 4\n");
+  const Scene scene = read(std::string(kFourVertices) + "f 1 2 3\nf 1 2 4\n");
   expectNear(materialOf(scene).reflectance, glm::dvec3(0.5));
   expectDiagnostic(scene, "no-material", "2 faces have", "scene.obj:5");
 }

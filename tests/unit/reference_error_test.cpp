@@ -14,7 +14,7 @@ namespace {
 using testing::HasSubstr;
 using Values = std::vector<std::optional<glm::dvec3>>;
 
-ReferencePoint pointOf(double reflected, double emission = 0, double standard_error = 0) {
+ReferencePoint referencePointOf(double reflected, double emission = 0, double standard_error = 0) {
   ReferencePoint point;
   point.emission = glm::dvec3(emission);
   point.radiosity = glm::dvec3(emission + reflected);
@@ -23,7 +23,8 @@ ReferencePoint pointOf(double reflected, double emission = 0, double standard_er
 }
 
 TEST(ReferenceError, IsOfReflectedLightAtPointsThatDoNotShine) {
-  const std::vector<ReferencePoint> reference{pointOf(3), pointOf(4), pointOf(1, 1000)};
+  const std::vector<ReferencePoint> reference{referencePointOf(3), referencePointOf(4),
+                                              referencePointOf(1, 1000)};
   const ReferenceError e = errorAgainst(reference, Values{glm::dvec3(3), glm::dvec3(5), glm::dvec3(0)});
   EXPECT_EQ(e.points, 2u);
   EXPECT_DOUBLE_EQ(e.nrmse, 1 / 5.0);
@@ -34,7 +35,7 @@ TEST(ReferenceError, IsOfReflectedLightAtPointsThatDoNotShine) {
 }
 
 TEST(ReferenceError, LeavesEmissionOutWhereEveryPointShines) {
-  const std::vector<ReferencePoint> reference{pointOf(1, 1000), pointOf(1, 1000)};
+  const std::vector<ReferencePoint> reference{referencePointOf(1, 1000), referencePointOf(1, 1000)};
   const ReferenceError e = errorAgainst(reference, Values{glm::dvec3(1001.5), glm::dvec3(1001.5)});
   EXPECT_EQ(e.points, 2u);
   EXPECT_NEAR(e.nrmse, 0.5, 1e-12);
@@ -42,7 +43,7 @@ TEST(ReferenceError, LeavesEmissionOutWhereEveryPointShines) {
 }
 
 TEST(ReferenceError, CountsMissingValuesAsDark) {
-  const std::vector<ReferencePoint> reference{pointOf(3), pointOf(4)};
+  const std::vector<ReferencePoint> reference{referencePointOf(3), referencePointOf(4)};
   const ReferenceError e = errorAgainst(reference, Values{glm::dvec3(3), std::nullopt});
   EXPECT_EQ(e.missing, 1u);
   EXPECT_DOUBLE_EQ(e.nrmse, 4 / 5.0);
@@ -53,11 +54,11 @@ TEST(ReferenceError, HasMedianAndWorstTwentiethOfRelativeErrors) {
   std::vector<ReferencePoint> reference;
   Values values;
   for (int k = 1; k <= 100; ++k) {
-    reference.push_back(pointOf(1));
+    reference.push_back(referencePointOf(1));
     values.emplace_back(glm::dvec3(1 + k / 100.0));
   }
   // Too dim to be asked for a relative error.
-  reference.push_back(pointOf(1e-3));
+  reference.push_back(referencePointOf(1e-3));
   values.emplace_back(glm::dvec3(1));
   const ReferenceError e = errorAgainst(reference, values);
   EXPECT_NEAR(e.median, 0.5, 0.011);
@@ -70,7 +71,7 @@ TEST(ReferenceError, LeavesOutTheReferencesOwnNoise) {
   std::vector<ReferencePoint> reference;
   Values values;
   for (int k = 0; k < 20'000; ++k) {
-    ReferencePoint point = pointOf(1, 0, 0.03);
+    ReferencePoint point = referencePointOf(1, 0, 0.03);
     for (int c = 0; c < 3; ++c) point.radiosity[c] += 0.03 * std::sqrt(12.0) * (dice.uniform() - 0.5);
     reference.push_back(point);
     values.emplace_back(glm::dvec3(1.02));
@@ -85,8 +86,8 @@ TEST(ReferenceError, LeavesOutTheReferencesOwnNoise) {
 
 TEST(ReferenceError, IsJudgeableWhereTheNoiseIsAThirdOfItAtMost) {
   const Values values{glm::dvec3(1.1)};
-  const std::vector<ReferencePoint> good{pointOf(1, 0, 0.03)}, poor{pointOf(1, 0, 0.04)},
-      none{pointOf(1, 0, std::numeric_limits<double>::infinity())};
+  const std::vector<ReferencePoint> good{referencePointOf(1, 0, 0.03)}, poor{referencePointOf(1, 0, 0.04)},
+      none{referencePointOf(1, 0, std::numeric_limits<double>::infinity())};
   EXPECT_TRUE(isJudgeable(errorAgainst(good, values)));
   EXPECT_EQ(whyNotJudgeable(errorAgainst(good, values)), "");
   EXPECT_FALSE(isJudgeable(errorAgainst(poor, values)));

@@ -17,7 +17,7 @@ using testing::ElementsAre;
 using testing::Field;
 using testing::HasSubstr;
 
-ReferenceOptions small() {
+ReferenceOptions sixPoints() {
   ReferenceOptions options;
   options.points = 6;
   options.relative_error = 0;
@@ -53,22 +53,22 @@ void expectSame(const std::vector<ReferencePoint>& a, const std::vector<Referenc
 TEST(ReferenceFile, IsTracedOnceAndReadBackBitByBit) {
   const TempFolder folder;
   const Scene scene = publishedCornellBox();
-  const Reference first = cachedReference(scene, small(), folder.path());
+  const Reference first = cachedReference(scene, sixPoints(), folder.path());
   EXPECT_FALSE(first.from_file);
   EXPECT_FALSE(saysCache(first));
-  EXPECT_THAT(folder.names(), ElementsAre(nameOf(scene, small())));
-  const Reference second = cachedReference(scene, small(), folder.path());
+  EXPECT_THAT(folder.names(), ElementsAre(nameOf(scene, sixPoints())));
+  const Reference second = cachedReference(scene, sixPoints(), folder.path());
   EXPECT_TRUE(second.from_file);
   EXPECT_GE(second.seconds, first.seconds);
   expectSame(first.points, second.points);
-  expectSame(first.points, readReferencePoints(folder / nameOf(scene, small())));
+  expectSame(first.points, readReferencePoints(folder / nameOf(scene, sixPoints())));
 }
 
 TEST(ReferenceFile, IsTracedOnWhereMoreIsAskedFor) {
   const TempFolder folder;
   const Scene scene = publishedCornellBox();
-  cachedReference(scene, small(), folder.path());
-  ReferenceOptions more = small();
+  cachedReference(scene, sixPoints(), folder.path());
+  ReferenceOptions more = sixPoints();
   more.max_samples = 128;
   const Reference longer = cachedReference(scene, more, folder.path());
   EXPECT_FALSE(longer.from_file);
@@ -79,49 +79,49 @@ TEST(ReferenceFile, IsTracedOnWhereMoreIsAskedFor) {
     EXPECT_NEAR(longer.points[k].standard_error.x, at_once.points[k].standard_error.x, 1e-12);
   }
   // Less is asked for: what is there is better.
-  EXPECT_EQ(cachedReference(scene, small(), folder.path()).points[0].samples, 128u);
+  EXPECT_EQ(cachedReference(scene, sixPoints(), folder.path()).points[0].samples, 128u);
 }
 
 TEST(ReferenceFile, BelongsToOneSceneAndOneSetOfOptions) {
   const Scene scene = cubeOneFaceLit(0.5);
-  std::set<std::uint64_t> hashes{referenceHash(scene, small())};
+  std::set<std::uint64_t> hashes{referenceHash(scene, sixPoints())};
   const auto expectOther = [&](const Scene& s, const ReferenceOptions& o) {
     EXPECT_TRUE(hashes.insert(referenceHash(s, o)).second);
   };
-  expectOther(cubeOneFaceLit(0.6), small());
+  expectOther(cubeOneFaceLit(0.6), sixPoints());
   Scene changed = scene;
   changed.positions[5].y += 1e-9;
-  expectOther(changed, small());
+  expectOther(changed, sixPoints());
   changed = scene;
   changed.materials[0].emission.z = 2;
-  expectOther(changed, small());
-  ReferenceOptions options = small();
+  expectOther(changed, sixPoints());
+  ReferenceOptions options = sixPoints();
   options.seed = 2;
   expectOther(scene, options);
-  options = small();
+  options = sixPoints();
   options.emit_front_only = true;
   expectOther(scene, options);
-  options = small();
+  options = sixPoints();
   options.points = 7;
   expectOther(scene, options);
-  options = small();
+  options = sixPoints();
   options.places = {{{0.5, 1, 0.5}, {0, -1, 0}}};
   expectOther(scene, options);
   changed = scene;
   changed.name = "other";
   changed.materials[0].name = "other";
-  options = small();
+  options = sixPoints();
   options.max_samples = 1;
   options.relative_error = 0.5;
   options.threads = 5;
-  EXPECT_EQ(referenceHash(changed, options), referenceHash(scene, small()));
+  EXPECT_EQ(referenceHash(changed, options), referenceHash(scene, sixPoints()));
 }
 
 TEST(ReferenceFile, IsTracedAgainWhereItIsDamaged) {
   const TempFolder folder;
   const Scene scene = cubeOneFaceLit(0.5);
-  const std::string name = nameOf(scene, small());
-  const Reference good = cachedReference(scene, small(), folder.path());
+  const std::string name = nameOf(scene, sixPoints());
+  const Reference good = cachedReference(scene, sixPoints(), folder.path());
   const std::string text = folder.read(name);
   std::string digit = text;
   const std::size_t last = digit.find_last_of("0123456789", digit.size() - 20);
@@ -132,29 +132,29 @@ TEST(ReferenceFile, IsTracedAgainWhereItIsDamaged) {
   for (const std::string& damaged :
        {digit, cut, row_less, std::string("x"), std::string(), std::string(99, '\0')}) {
     folder.write(name, damaged);
-    const Reference again = cachedReference(scene, small(), folder.path());
+    const Reference again = cachedReference(scene, sixPoints(), folder.path());
     EXPECT_FALSE(again.from_file);
     EXPECT_TRUE(saysCache(again));
     expectSame(good.points, again.points);
-    EXPECT_TRUE(cachedReference(scene, small(), folder.path()).from_file);
+    EXPECT_TRUE(cachedReference(scene, sixPoints(), folder.path()).from_file);
   }
   // A good file of another scene under this name.
   const Scene other = cubeOneFaceLit(0.6);
-  cachedReference(other, small(), folder.path());
-  folder.write(name, folder.read(nameOf(other, small())));
-  EXPECT_TRUE(saysCache(cachedReference(scene, small(), folder.path())));
+  cachedReference(other, sixPoints(), folder.path());
+  folder.write(name, folder.read(nameOf(other, sixPoints())));
+  EXPECT_TRUE(saysCache(cachedReference(scene, sixPoints(), folder.path())));
 }
 
 TEST(ReferenceFile, IsMissedWithoutHarmWhereItCannotBeWritten) {
   const TempFolder folder;
-  const Reference reference = cachedReference(cubeOneFaceLit(0.5), small(), folder.path() / "missing");
+  const Reference reference = cachedReference(cubeOneFaceLit(0.5), sixPoints(), folder.path() / "missing");
   EXPECT_EQ(reference.points.size(), 6u);
   EXPECT_TRUE(saysCache(reference));
 }
 
 TEST(ReferenceFile, IsNotMadeOfNothing) {
   const TempFolder folder;
-  ReferenceOptions options = small();
+  ReferenceOptions options = sixPoints();
   options.max_seconds = 0;
   cachedReference(cubeOneFaceLit(0.5), options, folder.path());
   EXPECT_TRUE(folder.names().empty());

@@ -17,7 +17,7 @@ using testing::Contains;
 using testing::Field;
 using testing::HasSubstr;
 
-ReferenceOptions small() {
+ReferenceOptions twelvePoints() {
   ReferenceOptions options;
   options.points = 12;
   options.relative_error = 0;
@@ -68,11 +68,11 @@ TEST(ReferencePoints, StayOutOfDarkRooms) {
 }
 
 TEST(ReferencePoints, TakeEmittingSidesWhereThereAreNoOthers) {
-  EXPECT_EQ(chooseReferencePoints(furnaceScene(0.5, 1), small()).size(), 12u);
+  EXPECT_EQ(chooseReferencePoints(furnaceScene(0.5, 1), twelvePoints()).size(), 12u);
 }
 
 TEST(ReferencePoints, ArePutWhereTheyAreAskedFor) {
-  ReferenceOptions options = small();
+  ReferenceOptions options = twelvePoints();
   options.places = {{{0.25, 0, 0.5}, {0, 2, 0}}, {{0.25, 1, 0.5}, {0, -1, 0}}};
   const auto points = chooseReferencePoints(cubeOneFaceLit(0.5), options);
   ASSERT_EQ(points.size(), 2u);
@@ -85,15 +85,15 @@ TEST(ReferencePoints, ArePutWhereTheyAreAskedFor) {
 }
 
 TEST(ReferencePoints, NeedLight) {
-  const Error dark = errorOf([] { chooseReferencePoints(furnaceScene(0.5, 0), small()); });
+  const Error dark = errorOf([] { chooseReferencePoints(furnaceScene(0.5, 0), twelvePoints()); });
   EXPECT_EQ(dark.kind(), ErrorKind::kInput);
   EXPECT_THAT(dark.advice(), HasSubstr("Ke"));
-  const Error black = errorOf([] { chooseReferencePoints(furnaceScene(0, 1), small()); });
+  const Error black = errorOf([] { chooseReferencePoints(furnaceScene(0, 1), twelvePoints()); });
   EXPECT_EQ(black.kind(), ErrorKind::kInput);
 }
 
 TEST(TracedReference, DoesNotDependOnTheNumberOfThreads) {
-  ReferenceOptions options = small();
+  ReferenceOptions options = twelvePoints();
   const Scene scene = publishedCornellBox();
   options.threads = 1;
   const Reference one = traceReference(scene, options);
@@ -104,7 +104,7 @@ TEST(TracedReference, DoesNotDependOnTheNumberOfThreads) {
 }
 
 TEST(TracedReference, EndsAtTheErrorAskedForAndSaysWhenItCannot) {
-  ReferenceOptions options = small();
+  ReferenceOptions options = twelvePoints();
   options.relative_error = 0.1;
   options.max_samples = 1u << 20;
   const Reference reached = traceReference(cubeOneFaceLit(0.5), options);
@@ -134,7 +134,7 @@ TEST(TracedReference, HasTwoFiguresOfItsNoise) {
 }
 
 TEST(TracedReference, ReturnsWhatWasReachedWhenStopped) {
-  ReferenceOptions options = small();
+  ReferenceOptions options = twelvePoints();
   options.relative_error = 0;
   options.max_samples = std::uint64_t{1} << 40;
   int calls = 0;
@@ -158,7 +158,7 @@ TEST(TracedReference, ReturnsWhatWasReachedWhenStopped) {
 }
 
 TEST(TracedReference, LetsExceptionsOfTheCallerThrough) {
-  ReferenceOptions options = small();
+  ReferenceOptions options = twelvePoints();
   options.max_samples = std::uint64_t{1} << 40;
   options.progress = [](double) -> bool { throw std::runtime_error("enough"); };
   EXPECT_THROW(traceReference(cubeOneFaceLit(0.5), options), std::runtime_error);
@@ -166,7 +166,7 @@ TEST(TracedReference, LetsExceptionsOfTheCallerThrough) {
 
 TEST(TracedReference, GoesOnAsIfItHadNotStopped) {
   const Scene scene = publishedCornellBox();
-  ReferenceOptions options = small();
+  ReferenceOptions options = twelvePoints();
   const Reference whole = traceReference(scene, options);
   options.max_samples = 64;
   Reference parts = traceReference(scene, options);
@@ -188,7 +188,7 @@ TEST(TracedReference, SeesTheBackOfLightsOnlyWhereItShines) {
   b.quad(grey, {0, 0, 0}, {0, 0, 1}, {1, 0, 0});
   b.quad(light, {0, 1, 0}, {0, 0, 1}, {1, 0, 0});  // its front is up
   const Scene scene = b.finish();
-  ReferenceOptions options = small();
+  ReferenceOptions options = twelvePoints();
   options.places = {{{0.5, 0, 0.5}, {0, 1, 0}}};
   // The factor of a unit square centred at distance 1.
   EXPECT_NEAR(traceReference(scene, options).points[0].radiosity.x, 0.5 * 0.239456470, 0.005);

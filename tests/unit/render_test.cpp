@@ -14,11 +14,13 @@
 #include "render/false_colour.h"
 #include "render/picture.h"
 #include "render/scene_view.h"
+#include "support/pixel.h"
 #include "support/synthetic_room.h"
 
 namespace unshot {
 namespace {
 
+using testing_support::pixel;
 using testing_support::RoomOptions;
 using testing_support::syntheticRoom;
 using testing_support::syntheticTwoPatches;
@@ -54,12 +56,6 @@ double meanDifference(const Image8& a, const Image8& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.rgb.size(); ++i) sum += std::abs(int(a.rgb[i]) - int(b.rgb[i]));
   return sum / static_cast<double>(a.rgb.size());
-}
-
-template <class Image>
-glm::dvec3 pixel(const Image& image, int x, int y) {
-  const std::size_t i = 3 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
-  return {image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]};
 }
 
 TEST_P(Rendering, EveryModeDrawsWithoutErrorsAndDiffersFromTheOthers) {

@@ -16,7 +16,7 @@ namespace {
 using namespace testing_support;
 
 // A closed room of two colours with three faces of a block in it and a light below the ceiling.
-Scene room(double reflectance = 0.7) {
+Scene roomToSave(double reflectance = 0.7) {
   SceneBuilder b;
   const auto white = b.material("white", glm::dvec3(reflectance)),
              red = b.material("red", reflectance * glm::dvec3(1, 0.2, 0.2)),
@@ -27,9 +27,7 @@ Scene room(double reflectance = 0.7) {
   return b.finish();
 }
 
-using Case = SolveCase;
-
-SolveOptions optionsOf(const Case& c) { return optionsOf(c, 0.05); }
+SolveOptions optionsToSave(const SolveCase& c) { return optionsOf(c, 0.05); }
 
 std::unique_ptr<Solve> resumed(Scene scene, SolveOptions options, const std::filesystem::path& file) {
   return std::make_unique<Solve>(
@@ -37,21 +35,21 @@ std::unique_ptr<Solve> resumed(Scene scene, SolveOptions options, const std::fil
       readSavedSolve(file));
 }
 
-double differenceOf(const Snapshot& a, const Snapshot& b) {
-  return testing_support::differenceOf(a.irradiance, b.irradiance);
+double irradianceDifference(const Snapshot& a, const Snapshot& b) {
+  return rmsDifference(a.irradiance, b.irradiance);
 }
 
-class Saved : public testing::TestWithParam<Case> {};
+class Saved : public testing::TestWithParam<SolveCase> {};
 
 // Left at a third and at two thirds of the way, and taken up again.
 TEST_P(Saved, EndsAsIfItHadNotBeenInterrupted) {
-  const Case& c = GetParam();
-  const SolveOptions options = optionsOf(c);
+  const SolveCase& c = GetParam();
+  const SolveOptions options = optionsToSave(c);
   const TempFolder folder;
-  const auto through = begun(room(c.white), options);
+  const auto through = begun(roomToSave(c.white), options);
   const int steps = run(*through);
   ASSERT_EQ(through->state(), SolveState::kConverged);
-  auto solve = begun(room(c.white), options);
+  auto solve = begun(roomToSave(c.white), options);
   for (int part = 1; part <= 2; ++part) {
     run(*solve, steps / 3);
     ASSERT_EQ(solve->state(), SolveState::kRunning);
@@ -65,7 +63,7 @@ TEST_P(Saved, EndsAsIfItHadNotBeenInterrupted) {
     SolveOptions asked;  // what is not in the file
     asked.error = options.error;
     asked.kept_bytes = options.kept_bytes;
-    solve = resumed(room(c.white), asked, folder.path() / "solve");
+    solve = resumed(roomToSave(c.white), asked, folder.path() / "solve");
     EXPECT_EQ(solve->measures().shots, before.shots);
     EXPECT_GE(solve->measures().seconds, before.seconds);
     EXPECT_EQ(solve->measures().unshot_fraction, before.unshot_fraction);
@@ -84,41 +82,41 @@ TEST_P(Saved, EndsAsIfItHadNotBeenInterrupted) {
   run(*solve);
   ASSERT_EQ(solve->state(), SolveState::kConverged) << solve->stoppedBy();
   const double bounds = through->measures().solverBound() + solve->measures().solverBound();
-  EXPECT_LE(differenceOf(solve->snapshot(), through->snapshot()), bounds);
+  EXPECT_LE(irradianceDifference(solve->snapshot(), through->snapshot()), bounds);
   // Form factors at hand are computed once (groups of drafts are looked at again).
   if (c.kept_bytes > 0) {
     EXPECT_LE(solve->measures().rows, through->measures().rows * 11 / 10 + 20);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Solves, Saved,
-                         testing::Values(Case{"hemicube", "southwell"}, Case{"hemicube", "gmres"},
-                                         Case{"hemicube", "southwell", false, 0},
-                                         Case{"hemicube-visibility", "jacobi"},
-                                         Case{"rays", "conjugate-gradient"}, Case{"rays", "southwell", true},
-                                         Case{"rays", "chebyshev", false, std::size_t{1} << 30, true},
-                                         Case{"rays", "jacobi", false, std::size_t{1} << 30, false, 0.95}),
-                         [](const auto& row) {
-                           return testName(row.param.method) + testName(row.param.mode) +
-                                  (row.param.follows_light     ? "FollowingLight"
-                                   : row.param.white > 0.9     ? "OfAWhiteRoom"
-                                   : row.param.sky             ? "UnderASky"
-                                   : row.param.kept_bytes == 0 ? "KeepingNothing"
-                                                               : "");
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Solves, Saved,
+    testing::Values(SolveCase{"hemicube", "southwell"}, SolveCase{"hemicube", "gmres"},
+                    SolveCase{"hemicube", "southwell", false, 0}, SolveCase{"hemicube-visibility", "jacobi"},
+                    SolveCase{"rays", "conjugate-gradient"}, SolveCase{"rays", "southwell", true},
+                    SolveCase{"rays", "chebyshev", false, std::size_t{1} << 30, true},
+                    SolveCase{"rays", "jacobi", false, std::size_t{1} << 30, false, 0.95}),
+    [](const auto& row) {
+      return testName(row.param.method) + testName(row.param.mode) +
+             (row.param.follows_light     ? "FollowingLight"
+              : row.param.white > 0.9     ? "OfAWhiteRoom"
+              : row.param.sky             ? "UnderASky"
+              : row.param.kept_bytes == 0 ? "KeepingNothing"
+                                          : "");
+    });
 
 TEST(SavedSolves, OfAConvergedSolveAreConvergedUntilMoreIsAskedFor) {
-  const Case c{"rays", "southwell", true};
+  const SolveCase c{"rays", "southwell", true};
   const TempFolder folder;
-  const auto solve = solved(room(), optionsOf(c));
+  const auto solve = solved(roomToSave(), optionsToSave(c));
   solve->save(folder.path() / "solve");
-  const auto same = resumed(room(), optionsOf(c), folder.path() / "solve");
+  const auto same = resumed(roomToSave(), optionsToSave(c), folder.path() / "solve");
   EXPECT_EQ(same->state(), SolveState::kConverged);
   EXPECT_EQ(same->stoppedBy(), solve->stoppedBy());
   EXPECT_EQ(same->snapshot().irradiance, solve->snapshot().irradiance);
-  SolveOptions more = optionsOf(c);
-  more.error = optionsOf(c).error / 10;
-  const auto better = resumed(room(), more, folder.path() / "solve");
+  SolveOptions more = optionsToSave(c);
+  more.error = optionsToSave(c).error / 10;
+  const auto better = resumed(roomToSave(), more, folder.path() / "solve");
   ASSERT_EQ(better->state(), SolveState::kRunning);
   run(*better);
   EXPECT_EQ(better->state(), SolveState::kConverged);
@@ -127,13 +125,13 @@ TEST(SavedSolves, OfAConvergedSolveAreConvergedUntilMoreIsAskedFor) {
 
 TEST(SavedSolves, GoOnInAnotherModeWhereItIsAskedFor) {
   const TempFolder folder;
-  const Case c{"rays", "southwell"};
-  const auto solve = begun(room(), optionsOf(c));
+  const SolveCase c{"rays", "southwell"};
+  const auto solve = begun(roomToSave(), optionsToSave(c));
   run(*solve, 50);
   solve->save(folder.path() / "solve");
-  SolveOptions other = optionsOf(c);
+  SolveOptions other = optionsToSave(c);
   other.mode = "gmres";
-  const auto next = resumed(room(), other, folder.path() / "solve");
+  const auto next = resumed(roomToSave(), other, folder.path() / "solve");
   run(*next);
   EXPECT_EQ(next->modeKey(), "gmres");
   EXPECT_EQ(next->state(), SolveState::kConverged);
@@ -141,13 +139,13 @@ TEST(SavedSolves, GoOnInAnotherModeWhereItIsAskedFor) {
 
 TEST(SavedSolves, CountLimitsFromWhereTheyGoOn) {
   const TempFolder folder;
-  SolveOptions options = optionsOf({"rays", "southwell"});
+  SolveOptions options = optionsToSave({"rays", "southwell"});
   options.max_shots = 30;
-  const auto solve = begun(room(), options);
+  const auto solve = begun(roomToSave(), options);
   run(*solve);
   EXPECT_EQ(solve->stoppedBy(), "max_shots");
   solve->save(folder.path() / "solve");
-  const auto next = resumed(room(), options, folder.path() / "solve");
+  const auto next = resumed(roomToSave(), options, folder.path() / "solve");
   EXPECT_EQ(next->state(), SolveState::kRunning);
   run(*next);
   EXPECT_EQ(next->stoppedBy(), "max_shots");
@@ -156,14 +154,14 @@ TEST(SavedSolves, CountLimitsFromWhereTheyGoOn) {
 
 TEST(SavedSolves, AreOfOneSceneAlone) {
   const TempFolder folder;
-  const Case c{"rays", "southwell"};
-  const auto solve = begun(room(), optionsOf(c));
+  const SolveCase c{"rays", "southwell"};
+  const auto solve = begun(roomToSave(), optionsToSave(c));
   run(*solve, 5);
   solve->save(folder.path() / "solve");
-  Scene other = room();
+  Scene other = roomToSave();
   other.materials[0].reflectance.x += 1e-9;
   try {
-    resumed(other, optionsOf(c), folder.path() / "solve");
+    resumed(other, optionsToSave(c), folder.path() / "solve");
     FAIL() << "another scene was taken";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kInput);
@@ -201,12 +199,12 @@ class StepThatThrows : public testing::TestWithParam<Failure> {};
 TEST_P(StepThatThrows, LeavesASolveThatCanBeSavedAndGoOn) {
   const Failure& failure = GetParam();
   const TempFolder folder;
-  Case c{"rays", failure.mode};
-  SolveOptions options = optionsOf(c);
+  SolveCase c{"rays", failure.mode};
+  SolveOptions options = optionsToSave(c);
   options.wrap_form_factors = [&](std::unique_ptr<FormFactorMethod> method) {
     return std::make_unique<FailingMethod>(std::move(method), 20, failure.raise);
   };
-  const auto solve = begun(room(), options);
+  const auto solve = begun(roomToSave(), options);
   run(*solve);
   ASSERT_EQ(solve->state(), SolveState::kFailed);
   EXPECT_EQ(solve->failure().value().kind(), failure.kind);
@@ -214,12 +212,12 @@ TEST_P(StepThatThrows, LeavesASolveThatCanBeSavedAndGoOn) {
   EXPECT_GT(solve->measures().rows, 10u);
   EXPECT_NEAR(solve->energy().residual(), 0, 1e-9 * solve->energy().emitted);
   solve->save(folder.path() / "solve");
-  const auto next = resumed(room(), optionsOf(c), folder.path() / "solve");
+  const auto next = resumed(roomToSave(), optionsToSave(c), folder.path() / "solve");
   EXPECT_EQ(next->measures().shots, solve->measures().shots);
   run(*next);
   EXPECT_EQ(next->state(), SolveState::kConverged);
-  const auto through = solved(room(), optionsOf(c));
-  EXPECT_LE(differenceOf(next->snapshot(), through->snapshot()),
+  const auto through = solved(roomToSave(), optionsToSave(c));
+  EXPECT_LE(irradianceDifference(next->snapshot(), through->snapshot()),
             next->measures().solverBound() + through->measures().solverBound());
 }
 
@@ -238,7 +236,7 @@ INSTANTIATE_TEST_SUITE_P(Solves, StepThatThrows, testing::ValuesIn(kFailures),
 // What is asked for the first time stays what it was where saving fails.
 TEST(SavedSolves, LeaveTheFileBeforeWhereTheyCannotBeWritten) {
   const TempFolder folder;
-  const auto solve = begun(room(), optionsOf(Case{"rays", "southwell"}));
+  const auto solve = begun(roomToSave(), optionsToSave(SolveCase{"rays", "southwell"}));
   EXPECT_THROW(solve->save("/dev/full"), Error);
   EXPECT_THROW(solve->save(folder.path() / "missing" / "solve"), Error);
   solve->save(folder.path() / "solve");

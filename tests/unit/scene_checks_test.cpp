@@ -20,7 +20,7 @@ constexpr const char* kMaterials =
     "newmtl bright\nKd 0.995 0.995 0.995\nnewmtl perfect\nKd 1 1 1\n";
 
 /// A closed room, 2 x 2 x 2, of the material; lines 1 to 16, the first vertex after it is 9.
-std::string room(const std::string& material = "white") {
+std::string roomText(const std::string& material = "white") {
   return "mtllib a.mtl\nv 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 0 0 2\nv 2 0 2\nv 2 2 2\nv 0 2 2\nusemtl " +
          material + "\nf 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 4 3 7 8\nf 1 4 8 5\nf 2 6 7 3\n";
 }
@@ -82,21 +82,21 @@ class SceneChecks : public ObjFileTest {
 };
 
 TEST_F(SceneChecks, FindNothingInARoomWithALampBelowItsCeiling) {
-  EXPECT_THAT(codes(remarks(room() + square(1.99))), IsEmpty());
-  EXPECT_THAT(codes(remarks(room() + square(1.99), true)), IsEmpty());
-  EXPECT_THAT(codes(remarks(room() + square(1.9999))), IsEmpty())
+  EXPECT_THAT(codes(remarks(roomText() + square(1.99))), IsEmpty());
+  EXPECT_THAT(codes(remarks(roomText() + square(1.99), true)), IsEmpty());
+  EXPECT_THAT(codes(remarks(roomText() + square(1.9999))), IsEmpty())
       << "its back faces the ceiling, its front the room";
-  EXPECT_THAT(codes(remarks(room() + square(1.5) + box(0.2))), IsEmpty());
+  EXPECT_THAT(codes(remarks(roomText() + square(1.5) + box(0.2))), IsEmpty());
 }
 
 TEST_F(SceneChecks, FindALightThatFacesTheCeiling) {
-  expectOnly(remarks(room() + square(1.999, 0.3, "lamp", false), true), "light-faces-wall",
+  expectOnly(remarks(roomText() + square(1.999, 0.3, "lamp", false), true), "light-faces-wall",
              "'lamp' faces a surface directly before it", ":22");
 }
 
 TEST_F(SceneChecks, FindALightHiddenAboveTheCeiling) {
   const auto aboveIt = [&](const std::string& lights) {
-    Diagnostics found = remarks(room() + lights);
+    Diagnostics found = remarks(roomText() + lights);
     std::erase_if(found, [](const Diagnostic& d) { return d.code == "closed"; });
     return found;
   };
@@ -105,13 +105,15 @@ TEST_F(SceneChecks, FindALightHiddenAboveTheCeiling) {
 }
 
 TEST_F(SceneChecks, FindALightInThePlaneOfTheCeiling) {
-  expectOnly(remarks(room() + square(2)), "light-faces-wall", "lies in the plane of another surface", ":22");
+  expectOnly(remarks(roomText() + square(2)), "light-faces-wall", "lies in the plane of another surface",
+             ":22");
 }
 
 TEST_F(SceneChecks, FindALightInASolid) {
-  expectOnly(remarks(room() + box(0.3) + square(1, 0.1)), "light-in-solid", "is shut into a solid", ":37");
+  expectOnly(remarks(roomText() + box(0.3) + square(1, 0.1)), "light-in-solid", "is shut into a solid",
+             ":37");
   // The room itself may be wound outwards: then every light shines on backs.
-  std::string outwards = room();
+  std::string outwards = roomText();
   for (const auto& [from, to] : {std::pair("f 1 2 3 4", "f 4 3 2 1"),
                                  {"f 8 7 6 5", "f 5 6 7 8"},
                                  {"f 1 5 6 2", "f 2 6 5 1"},
@@ -131,15 +133,15 @@ TEST_F(SceneChecks, FindALightThatSeesNothing) {
   EXPECT_THAT(found[0].advice, HasSubstr("turn it around"));
   EXPECT_THAT(codes(remarks(floor + square(1), true)), Not(testing::Contains("light-sees-nothing")));
   // A room that is all light sees itself.
-  EXPECT_THAT(codes(remarks(room("lamp"))), IsEmpty());
+  EXPECT_THAT(codes(remarks(roomText("lamp"))), IsEmpty());
 }
 
 TEST_F(SceneChecks, FindSurfacesThatNearlyTouch) {
-  expectOnly(remarks(room() + square(1.5) + square(0.00002, 0.5, "white", false)), "nearly-touching",
+  expectOnly(remarks(roomText() + square(1.5) + square(0.00002, 0.5, "white", false)), "nearly-touching",
              "1 pair of parallel surfaces nearly touch, with gaps from 2e-05 m", ":13", Severity::kNote);
   // On it, or as far above it as a carpet.
-  EXPECT_THAT(codes(remarks(room() + square(1.5) + square(0, 0.5, "white", false))), IsEmpty());
-  EXPECT_THAT(codes(remarks(room() + square(1.5) + square(0.005, 0.5, "white", false))), IsEmpty());
+  EXPECT_THAT(codes(remarks(roomText() + square(1.5) + square(0, 0.5, "white", false))), IsEmpty());
+  EXPECT_THAT(codes(remarks(roomText() + square(1.5) + square(0.005, 0.5, "white", false))), IsEmpty());
 }
 
 TEST_F(SceneChecks, FindOddScale) {
@@ -162,36 +164,36 @@ TEST_F(SceneChecks, FindOddScale) {
 }
 
 TEST_F(SceneChecks, FindMixedWinding) {
-  std::string turned = room();
+  std::string turned = roomText();
   turned.replace(turned.find("f 1 5 6 2"), 9, "f 2 6 5 1");
   expectOnly(remarks(turned + square(1.5)), "mixed-winding", "across 4 edges", ":11", Severity::kNote);
   // Two halves of a lamp: the front of the one beside the back of the other.
   const std::string lamp =
       "usemtl lamp\nv 0.5 1.5 0.5\nv 1 1.5 0.5\nv 1 1.5 1\nv 0.5 1.5 1\nv 1.5 1.5 0.5\nv 1.5 1.5 1\n"
       "f 9 10 11 12\nf 11 13 10\nf 11 14 13\n";
-  expectOnly(remarks(room() + lamp, true), "mixed-winding", "of which only fronts emit", ":24");
+  expectOnly(remarks(roomText() + lamp, true), "mixed-winding", "of which only fronts emit", ":24");
 }
 
 TEST_F(SceneChecks, FindWaysOut) {
-  std::string open = room();
+  std::string open = roomText();
   open.erase(open.find("f 2 6 7 3"), 10);
   const Diagnostics found = remarks(open + square(1.5));
   expectOnly(found, "closed", "(4 edges without a neighbour, the first here)", ":11", Severity::kNote);
   EXPECT_THAT(found[0].message, HasSubstr("% of the light escapes"));
   // A face that ends within a neighbour's edge leaves edges open, but no way out.
-  std::string halves = room();
+  std::string halves = roomText();
   halves.replace(halves.find("f 2 6 7 3\n"), 10, "v 2 1 0\nv 2 1 2\nf 2 6 10 9\nf 9 10 7 3\n");
   EXPECT_THAT(codes(remarks(halves + square(1.5))), IsEmpty());
 }
 
 TEST_F(SceneChecks, FindLightThatHardlyFades) {
-  expectOnly(remarks(room("bright") + square(1.5, 0.01)), "spectral-radius", "about 99.5 %", "");
-  expectOnly(remarks(room("perfect")), "spectral-radius", "no finite solution", "");
+  expectOnly(remarks(roomText("bright") + square(1.5, 0.01)), "spectral-radius", "about 99.5 %", "");
+  expectOnly(remarks(roomText("perfect")), "spectral-radius", "no finite solution", "");
 }
 
 TEST_F(SceneChecks, KnowHowLightFades) {
   write("a.mtl", kMaterials);
-  const Scene scene = read(room() + square(1.5, 0.01));
+  const Scene scene = read(roomText() + square(1.5, 0.01));
   const Mesh mesh = buildMesh(scene, MeshOptions{});
   const LightWalks walks = walkLight(mesh, MeshRays(mesh));
   EXPECT_NEAR(walks.largestRadius(), 0.5, 0.005) << "a closed room of one reflectance";

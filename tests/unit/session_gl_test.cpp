@@ -5,16 +5,13 @@
 
 #include "gl/context.h"
 #include "scene/obj_reader.h"
+#include "support/assets.h"
 #include "support/session_watch.h"
 
 namespace unshot {
 namespace {
 
 using namespace testing_support;
-
-std::filesystem::path asset(const char* name) {
-  return std::filesystem::path(UNSHOT_SOURCE_DIR) / "assets" / name;
-}
 
 SolveOptions hemicubes(std::uint64_t elements, double error) {
   SolveOptions options;

@@ -13,10 +13,10 @@ namespace unshot {
 namespace {
 
 TEST(SliverMesh, OfAThinFrameHasNotManyEmptyCells) {
-  constexpr double kSize = 100, kWidth = 0.01;
+  constexpr double kSize = 100, kThickness = 0.01;
   SceneBuilder b;
   b.material("white", glm::dvec3(0.5));
-  const glm::dvec3 x(kSize, 0, 0), y(0, kSize, 0), wide(kWidth, 0, 0), high(0, kWidth, 0);
+  const glm::dvec3 x(kSize, 0, 0), y(0, kSize, 0), wide(kThickness, 0, 0), high(0, kThickness, 0);
   b.polygon(0, {{0, 0, 0}, x, x + high - wide, wide + high});
   b.polygon(0, {x, x + y, x + y - wide - high, x + high - wide});
   b.polygon(0, {x + y, y, y + wide - high, x + y - wide - high});

@@ -8,16 +8,16 @@
 #include <cmath>
 #include <limits>
 
-#include "scene/obj_reader.h"
 #include "session/publish_pace.h"
 #include "solver/modes.h"
+#include "support/assets.h"
 
 namespace unshot {
 namespace {
 
-Scene asset(const char* name) { return readObj(std::filesystem::path(UNSHOT_SOURCE_DIR) / "assets" / name); }
+using testing_support::assetScene;
 
-std::unique_ptr<Solve> begin(Scene scene, double error, const std::string& mode = "auto") {
+std::unique_ptr<Solve> begunInClosedForm(Scene scene, double error, const std::string& mode = "auto") {
   SolveOptions options;
   options.form_factors = "closed-form";
   options.elements = 120;
@@ -33,7 +33,7 @@ void finish(Solve& solve) {
 }
 
 TEST(Solve, ShootsAgainInEveryModeAndKnowsItsErrorAfterDirect) {
-  const auto solve = begin(asset("two_patches.obj"), 1e-6, "direct");
+  const auto solve = begunInClosedForm(assetScene("two_patches.obj"), 1e-6, "direct");
   EXPECT_FALSE(solve->measures().true_error);
   finish(*solve);
   ASSERT_TRUE(solve->measures().true_error);
@@ -71,7 +71,7 @@ TEST(Solve, TakesTheSameShotsSeveralAtOnceAndNotOneTooMany) {
   options.error = 1e-300;
   options.max_shots = kShots;
   const auto end = [&](std::uint64_t most_shots, int& steps) {
-    auto solve = std::make_unique<Solve>(asset("two_rooms.obj"), options, []() -> gl::Context& {
+    auto solve = std::make_unique<Solve>(assetScene("two_rooms.obj"), options, []() -> gl::Context& {
       throw Error(ErrorKind::kInternal, "closed forms do not draw");
     });
     for (steps = 0; solve->state() == SolveState::kRunning; ++steps) solve->step(most_shots);
@@ -87,7 +87,7 @@ TEST(Solve, TakesTheSameShotsSeveralAtOnceAndNotOneTooMany) {
 }
 
 TEST(Solve, ValidatesModeAndErrorAndKeepsThemWhereTheyAreBad) {
-  const auto solve = begin(asset("two_patches.obj"), 0.25, "jacobi");
+  const auto solve = begunInClosedForm(assetScene("two_patches.obj"), 0.25, "jacobi");
   EXPECT_THROW(solve->setMode("none"), Error);
   for (const double bad : {0.0, 1.0, -0.5, std::nan(""), std::numeric_limits<double>::infinity()})
     EXPECT_THROW(solve->setError(bad), Error);
@@ -99,7 +99,7 @@ TEST(Solve, ValidatesModeAndErrorAndKeepsThemWhereTheyAreBad) {
 }
 
 TEST(Solve, RunsAgainForASmallerErrorAndEndsForALargerOne) {
-  const auto solve = begin(asset("furnace.obj"), 0.3);
+  const auto solve = begunInClosedForm(assetScene("furnace.obj"), 0.3);
   finish(*solve);
   ASSERT_EQ(solve->state(), SolveState::kConverged);
   const Measures first = solve->measures();
@@ -118,7 +118,7 @@ TEST(Solve, RunsAgainForASmallerErrorAndEndsForALargerOne) {
 }
 
 TEST(Solve, AnEndedSolveIsNotRevivedByAMode) {
-  const auto solve = begin(asset("two_patches.obj"), 0.1);
+  const auto solve = begunInClosedForm(assetScene("two_patches.obj"), 0.1);
   solve->interrupt();
   solve->setMode("jacobi");
   solve->setError(1e-6);
@@ -128,9 +128,9 @@ TEST(Solve, AnEndedSolveIsNotRevivedByAMode) {
 }
 
 TEST(Solve, LightBeyondTheRangeOfNumbersFails) {
-  Scene scene = asset("two_patches.obj");
+  Scene scene = assetScene("two_patches.obj");
   for (Material& m : scene.materials) m.emission *= 1e307;
-  const auto solve = begin(std::move(scene), 0.01);
+  const auto solve = begunInClosedForm(std::move(scene), 0.01);
   solve->step();
   EXPECT_EQ(solve->state(), SolveState::kFailed);
   EXPECT_EQ(solve->progress(), 0);
@@ -140,9 +140,9 @@ TEST(Solve, LightBeyondTheRangeOfNumbersFails) {
 }
 
 TEST(Solve, ARoomThatReflectsAllIsAnInputError) {
-  Scene scene = asset("furnace.obj");
+  Scene scene = assetScene("furnace.obj");
   for (Material& m : scene.materials) m.reflectance = glm::dvec3(1.0);
-  const auto solve = begin(std::move(scene), 0.01);
+  const auto solve = begunInClosedForm(std::move(scene), 0.01);
   EXPECT_FALSE(solve->failure());
   finish(*solve);
   EXPECT_EQ(solve->state(), SolveState::kFailed);
@@ -155,14 +155,14 @@ TEST(Solve, ARoomThatReflectsAllIsAnInputError) {
 // rounded to float.
 TEST(Solve, DirectLightIsWhatTheBlackSceneReceivesInEveryModeAndAfterSwitches) {
   for (const char* name : {"two_patches.obj", "furnace.obj", "cornell_box.obj"}) {
-    Scene black = asset(name);
+    Scene black = assetScene(name);
     for (Material& m : black.materials) m.reflectance = glm::dvec3(0.0);
-    const auto reference = begin(std::move(black), 1e-9);
+    const auto reference = begunInClosedForm(std::move(black), 1e-9);
     finish(*reference);
     const Snapshot expected = reference->snapshot();
     for (const IterationModeRow& mode : iterationModes()) {
       for (const IterationModeRow& later : iterationModes()) {
-        const auto solve = begin(asset(name), 1e-4, std::string(mode.info.key));
+        const auto solve = begunInClosedForm(assetScene(name), 1e-4, std::string(mode.info.key));
         for (int k = 0; k < 5; ++k) solve->step();
         solve->setMode(std::string(later.info.key));
         finish(*solve);
@@ -184,7 +184,7 @@ TEST(Solve, DirectLightIsWhatTheBlackSceneReceivesInEveryModeAndAfterSwitches) {
 }
 
 TEST(Solve, SnapshotsShareDirectLightThatDoesNotChange) {
-  const auto solve = begin(asset("cornell_box.obj"), 1e-6);
+  const auto solve = begunInClosedForm(assetScene("cornell_box.obj"), 1e-6);
   const Snapshot unlit = solve->snapshot();
   for (const glm::vec3& h : *unlit.direct) ASSERT_EQ(h, glm::vec3(0.0f));
   while (solve->measures().unshot_fraction > 0.3) solve->step();
@@ -236,7 +236,7 @@ TEST(Solve, StopsWhereEnergyIsNotConserved) {
   options.wrap_form_factors = [](std::unique_ptr<FormFactorMethod> method) {
     return std::make_unique<DoublingMethod>(std::move(method));
   };
-  Solve solve(asset("two_patches.obj"), options,
+  Solve solve(assetScene("two_patches.obj"), options,
               []() -> gl::Context& { throw Error(ErrorKind::kInternal, "closed forms do not draw"); });
   finish(solve);
   ASSERT_EQ(solve.state(), SolveState::kFailed);

@@ -18,9 +18,12 @@
 #include "render/side_pictures.h"
 #include "render/targets.h"
 #include "scene/analytic_scenes.h"
+#include "support/pixel.h"
 
 namespace unshot {
 namespace {
+
+using testing_support::pixel;
 
 class UnlitSurfacesOn : public testing::TestWithParam<gl::Provider> {
  protected:
@@ -35,12 +38,6 @@ class UnlitSurfacesOn : public testing::TestWithParam<gl::Provider> {
   }
   std::unique_ptr<gl::Context> context_;
 };
-
-template <class Image>
-glm::dvec3 pixel(const Image& image, int x, int y) {
-  const std::size_t i = 3 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
-  return {image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]};
-}
 
 // A closed room with a lamp and another one beside it without, as far away as that.
 Snapshot litRoomBesideDarkOne(double gap = 1) {
