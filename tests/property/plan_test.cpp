@@ -162,17 +162,17 @@ TEST(Plan, SavesPatchesWhereFlatWallsAreCutIntoMany) {
 // A dome over a floor, which does not close it: outside it has an element on each face at least.
 TEST(Plan, SavesElementsOutsideOfADome) {
   const auto dome = [] {
-    constexpr int kRings = 10;
+    constexpr int kDomeRings = 10;
     SceneBuilder b;
     const auto grey = b.material("grey", glm::dvec3(0.5)),
                lamp = b.material("lamp", glm::dvec3(0.3), glm::dvec3(4));
     const auto at = [](int ring, int step) {
-      const double up = 1.5 * ring / kRings,
-                   around = 2 * std::acos(-1) * (step % (4 * kRings)) / (4 * kRings);
+      const double up = 1.5 * ring / kDomeRings,
+                   around = 2 * std::acos(-1) * (step % (4 * kDomeRings)) / (4 * kDomeRings);
       return glm::dvec3(std::sin(up) * std::cos(around), std::cos(up), std::sin(up) * std::sin(around));
     };
-    for (int ring = 0; ring < kRings; ++ring) {
-      for (int step = 0; step < 4 * kRings; ++step) {
+    for (int ring = 0; ring < kDomeRings; ++ring) {
+      for (int step = 0; step < 4 * kDomeRings; ++step) {
         b.polygon(grey, {at(ring, step), at(ring + 1, step), at(ring + 1, step + 1)});
         if (ring > 0) b.polygon(grey, {at(ring, step), at(ring + 1, step + 1), at(ring, step + 1)});
       }
