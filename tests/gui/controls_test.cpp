@@ -22,7 +22,7 @@ using testing_support::idOf;
 using testing_support::LiveViewer;
 using testing_support::TempFolder;
 
-constexpr float kStep = 7;  // [px], less than any control is high
+constexpr float kStep = 14;  // [px], less than any control is high
 
 /// A child window, such as the part of the panel that scrolls.
 const ImGuiWindow* childOf(const char* window, const char* child) {
@@ -251,7 +251,7 @@ TEST_F(Controls, WhatTheMouseRestsOnSaysWhatItIs) {
   int places = 0;
   // Down the names at the left of the panel, and across buttons.
   for (const float share : {0.08f, 0.9f}) {
-    for (float y = 2; y < std::min(box.Max.y, box.Min.y + panel->ContentSize.y); y += 2 * kStep, ++places) {
+    for (float y = 2; y < std::min(box.Max.y, box.Min.y + panel->ContentSize.y); y += kStep, ++places) {
       mouseTo({box.Min.x + share * box.GetWidth(), y});
       frames(1);  // ImGui shows a new window one frame late
       const ImGuiWindow* tip = tooltipShown();
@@ -277,7 +277,7 @@ TEST_F(Controls, TooltipsStayWithinASmallWindow) {
   const ImGuiWindow* panel = childOf("panel", "sections");
   ASSERT_TRUE(panel);
   int tips = 0;
-  for (float y = 4; y < 356; y += 2 * kStep) {
+  for (float y = 4; y < 356; y += kStep) {
     mouseTo({panel->InnerRect.Min.x + 20, y});
     frames(1);
     const ImGuiWindow* tip = tooltipShown();
