@@ -7,20 +7,21 @@
 #include <array>
 #include <bit>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/read_file.h"
 #include "base/srgb.h"
+#include "export/png_rows.h"
 
 namespace unshot {
 namespace {
-
-constexpr std::size_t kPiece = 1 << 20;  // bytes written at a time
-constexpr double kEncodingShare = 0.9;   // of the time that a PNG takes
 
 void appendTo(void* context, void* data, int size) {
   static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
@@ -39,18 +40,47 @@ using StbPixels = std::unique_ptr<Value[], FreeStb>;
 }
 
 template <class Value>
-void requireDecoded(const StbPixels<Value>& pixels, const std::filesystem::path& path) {
+void requireDecoded(const StbPixels<Value>& pixels, const std::filesystem::path& path,
+                    const CancelToken& cancel) {
+  cancel.check();
   if (pixels) return;
   throw Error(ErrorKind::kInput,
               std::string("this is not a picture that can be read (") + stbi_failure_reason() + ")",
               path.string(), "a PNG, Radiance HDR or PFM file");
 }
 
+/// Bytes as stb_image reads them; they end where reading is given up.
+struct Source {
+  std::string_view bytes;
+  const CancelToken& cancel;
+  std::size_t at = 0;
+
+  static int read(void* user, char* data, int size) {
+    auto& source = *static_cast<Source*>(user);
+    if (source.cancel.requested()) return 0;
+    const std::string_view piece = source.bytes.substr(source.at, static_cast<std::size_t>(size));
+    std::copy(piece.begin(), piece.end(), data);
+    source.at += piece.size();
+    source.cancel.report(static_cast<double>(source.at) / static_cast<double>(source.bytes.size()));
+    return static_cast<int>(piece.size());
+  }
+  static void skip(void* user, int count) {
+    auto& source = *static_cast<Source*>(user);
+    const auto at = static_cast<std::ptrdiff_t>(source.at) + count;  // stb steps back, too
+    source.at = std::min(static_cast<std::size_t>(std::max<std::ptrdiff_t>(at, 0)), source.bytes.size());
+  }
+  static int ended(void* user) {
+    const auto& source = *static_cast<Source*>(user);
+    return source.at == source.bytes.size() || source.cancel.requested();
+  }
+};
+constexpr stbi_io_callbacks kSource = {Source::read, Source::skip, Source::ended};
+
 bool isPfm(const std::string& bytes) { return bytes.starts_with("PF") || bytes.starts_with("Pf"); }
 
 /// Portable float map: "PF" (three channels) or "Pf" (one), width, height, scale (below 0: lowest byte
 /// first), one white space, then floats, lowest row first.
-ImageF pfmImage(const std::string& bytes, const std::filesystem::path& path) {
+ImageF pfmImage(const std::string& bytes, const std::filesystem::path& path, const CancelToken& cancel) {
   std::istringstream head(bytes.substr(0, 200));
   std::string magic;
   ImageF image;
@@ -66,6 +96,8 @@ ImageF pfmImage(const std::string& bytes, const std::filesystem::path& path) {
                 "another file");
   image.rgb.reserve(3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
   for (auto y = static_cast<std::size_t>(image.height); y-- > 0;) {
+    cancel.check();
+    cancel.report(1 - static_cast<double>(y + 1) / image.height);
     for (std::size_t k = 0; k < 3 * static_cast<std::size_t>(image.width); ++k) {
       const char* from = &bytes[begin + 4 * (y * row + (channels == 3 ? k : k / 3))];
       std::array<char, 4> value = {from[0], from[1], from[2], from[3]};
@@ -81,24 +113,15 @@ ImageF pfmImage(const std::string& bytes, const std::filesystem::path& path) {
 
 std::string pngBytes(const Image8& image) {
   std::string bytes;
-  if (!stbi_write_png_to_func(appendTo, &bytes, image.width, image.height, 3, image.rgb.data(),
-                              3 * image.width)) {
-    return {};
-  }
+  if (image.width <= 0 || image.height <= 0) return bytes;
+  encodePng(image, [&](std::string_view piece) { bytes += piece; });
   return bytes;
 }
 
 void writePng(const std::filesystem::path& path, const Image8& image, const CancelToken& cancel) {
-  const std::string bytes = pngBytes(image);
-  if (bytes.empty()) failEncoding(path);
-  cancel.report(kEncodingShare);
-  writeWholeFile(path, [&](const std::function<void(std::string_view)>& sink) {
-    for (std::size_t at = 0; at < bytes.size(); at += kPiece) {
-      cancel.check();
-      sink(std::string_view(bytes).substr(at, kPiece));
-    }
-    cancel.check();
-  });
+  if (image.width <= 0 || image.height <= 0) failEncoding(path);
+  writeWholeFile(path,
+                 [&](const std::function<void(std::string_view)>& sink) { encodePng(image, sink, cancel); });
 }
 
 void writeHdr(const std::filesystem::path& path, const ImageF& image) {
@@ -113,34 +136,34 @@ void writeHdr(const std::filesystem::path& path, const ImageF& image) {
   writeWholeFile(path, bytes);
 }
 
-ImageF readImage(const std::filesystem::path& path) {
+PictureFile readPicture(const std::filesystem::path& path, const CancelToken& cancel) {
   const std::string bytes = readFile(path);
-  if (isPfm(bytes)) return pfmImage(bytes, path);
-  const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
-  const int size = static_cast<int>(bytes.size());
+  cancel.check();
+  if (isPfm(bytes)) return {pfmImage(bytes, path, cancel), true};
+  if (std::optional<ImageF> png = decodePng(bytes, cancel)) return {std::move(*png), false};
+  Source source{bytes, cancel};
   ImageF image;
   int channels = 0;
-  if (stbi_is_hdr_from_memory(data, size)) {
+  const auto size = [&] { return 3 * std::size_t(image.width) * std::size_t(image.height); };
+  const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
+  if (stbi_is_hdr_from_memory(data, static_cast<int>(bytes.size()))) {
     const StbPixels<float> pixels(
-        stbi_loadf_from_memory(data, size, &image.width, &image.height, &channels, 3));
-    requireDecoded(pixels, path);
-    image.rgb.assign(pixels.get(), pixels.get() + 3 * std::size_t(image.width) * std::size_t(image.height));
-    return image;
+        stbi_loadf_from_callbacks(&kSource, &source, &image.width, &image.height, &channels, 3));
+    requireDecoded(pixels, path, cancel);
+    image.rgb.assign(pixels.get(), pixels.get() + size());
+    return {std::move(image), true};
   }
   const StbPixels<stbi_us> pixels(
-      stbi_load_16_from_memory(data, size, &image.width, &image.height, &channels, 3));
-  requireDecoded(pixels, path);
-  image.rgb.resize(3 * std::size_t(image.width) * std::size_t(image.height));
+      stbi_load_16_from_callbacks(&kSource, &source, &image.width, &image.height, &channels, 3));
+  requireDecoded(pixels, path, cancel);
+  image.rgb.resize(size());
   for (std::size_t k = 0; k < image.rgb.size(); ++k) {
+    if (k % 4096 == 0) cancel.check();
     image.rgb[k] = static_cast<float>(linearFromSrgb(pixels[k] / 65535.0));
   }
-  return image;
+  return {std::move(image), false};
 }
 
-bool holdsLight(const std::filesystem::path& path) {
-  const std::string bytes = readFile(path);
-  return isPfm(bytes) || stbi_is_hdr_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()),
-                                                 static_cast<int>(bytes.size()));
-}
+ImageF readImage(const std::filesystem::path& path) { return readPicture(path).image; }
 
 }  // namespace unshot

@@ -20,12 +20,15 @@ void writePng(const std::filesystem::path& path, const Image8& image, const Canc
 /// negative or no number becomes 0. Throws Error (kEnvironment).
 void writeHdr(const std::filesystem::path& path, const ImageF& image);
 
-/// Reads a picture as linear values: HDR and PFM as they are, PNG and others (8 or 16 bits) decoded from sRGB
-/// to 0..1. Transparency is dropped. Throws Error (kInput).
+/// What a picture's file holds, as linear values: HDR and PFM as they are, PNG and others (8 or 16 bits)
+/// decoded from sRGB to 0..1. Transparency is dropped.
+struct PictureFile {
+  ImageF image;
+  bool light = false;  ///< linear light (HDR, PFM), not values of a display
+};
+/// Throws Error (kInput), Cancelled.
+PictureFile readPicture(const std::filesystem::path& path, const CancelToken& cancel = {});
+/// The picture alone.
 ImageF readImage(const std::filesystem::path& path);
-
-/// Whether the file holds linear light (HDR, PFM), not values of a display. Throws Error (kInput) where it
-/// cannot be read.
-bool holdsLight(const std::filesystem::path& path);
 
 }  // namespace unshot

@@ -1,7 +1,10 @@
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <glm/geometric.hpp>
 #include <limits>
 
 #include "base/error.h"
@@ -9,6 +12,7 @@
 #include "export/exporters.h"
 #include "export/image_files.h"
 #include "export/ply.h"
+#include "scene/texture_mean.h"
 #include "support/synthetic_room.h"
 #include "support/temp_folder.h"
 
@@ -132,6 +136,95 @@ TEST(Ply, RefusesWhatItCannotRead) {
   EXPECT_TRUE(refused(huge));
 }
 
+/// A PNG of stored bytes: the rows as they are, each after the number of its filter.
+std::string storedPng(std::uint32_t width, std::uint32_t height, int depth, int colour,
+                      const std::string& rows) {
+  const auto number = [](std::size_t n, int bytes, bool low_first = false) {
+    std::string out;
+    for (int k = 0; k < bytes; ++k)
+      out.push_back(static_cast<char>(n >> 8 * (low_first ? k : bytes - 1 - k) & 255));
+    return out;
+  };
+  const auto chunk = [&](const std::string& type, const std::string& data) {
+    return number(data.size(), 4) + type + data + "????";  // checksums are not looked at
+  };
+  const std::string head = number(width, 4) + number(height, 4) + static_cast<char>(depth) +
+                           static_cast<char>(colour) + std::string(3, '\0');
+  const std::string data =
+      "\x78\x01\x01" + number(rows.size(), 2, true) + number(~rows.size() & 0xffff, 2, true) + rows;
+  return "\x89PNG\r\n\x1a\n" + chunk("IHDR", head) + chunk("IDAT", data.substr(0, 7)) +
+         chunk("tEXt", "between") + chunk("IDAT", data.substr(7)) + chunk("IEND", "");
+}
+
+TEST(ImageFiles, ReadPngsOfOtherKinds) {
+  const TempFolder folder;
+  const auto read = [&](const std::string& bytes) { return readImage(folder.write("k.png", bytes)).rgb; };
+  const auto linear = [](double share) { return static_cast<float>(linearFromSrgb(share)); };
+  const float a = linear(10 / 255.0), b = linear(20 / 255.0), c = linear(30 / 255.0);
+  // The second row adds to the first.
+  const std::vector<float> grey = {a, a, a, b, b, b};
+  EXPECT_EQ(read(storedPng(1, 2, 8, 0, std::string("\0\x0a\2\x0a", 4))), grey);
+  EXPECT_EQ(read(storedPng(1, 2, 8, 4, std::string("\0\x0a\xff\2\x0a\0", 6))), grey) << "with transparency";
+  const std::vector<float> colour = {a, b, c};
+  EXPECT_EQ(read(storedPng(1, 1, 8, 6, std::string("\0\x0a\x14\x1e\x80", 5))), colour);
+  EXPECT_EQ(read(storedPng(1, 1, 16, 2, std::string("\0\x0a\x0a\x14\x14\x1e\x1e", 7))), colour) << "16 bits";
+  EXPECT_THROW(read(storedPng(2, 2, 8, 0, std::string("\0\x0a\2\x0a", 4))), Error) << "cut short";
+}
+
+// Each filter is the best for some of these rows. The reader of textures is another.
+TEST(ImageFiles, PngsAreReadByOthersAndBack) {
+  const TempFolder folder;
+  Image8 image{301, 97, {}};
+  std::uint32_t noise = 1;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      noise = noise * 1664525u + 1013904223u;
+      const int values[] = {x * y / 64, y % 9 < 4 ? static_cast<int>(noise >> 24) : x, 3 * y};
+      for (const int value : values) image.rgb.push_back(static_cast<std::uint8_t>(value));
+    }
+  }
+  writePng(folder / "a.png", image);
+  glm::dvec3 mean(0.0);
+  const ImageF read = readImage(folder / "a.png");
+  ASSERT_EQ(read.rgb.size(), image.rgb.size());
+  for (std::size_t k = 0; k < image.rgb.size(); ++k) {
+    ASSERT_EQ(srgb8FromLinear(read.rgb[k]), image.rgb[k]) << k;
+    mean[static_cast<int>(k % 3)] += linearFromSrgb(image.rgb[k] / 255.0) / (301.0 * 97);
+  }
+  const auto elsewhere = textureMean(folder / "a.png");
+  ASSERT_TRUE(elsewhere);
+  EXPECT_LT(glm::distance(*elsewhere, mean), 1e-4);
+}
+
+TEST(ImageFiles, WritingAndReadingTellHowFarTheyAreAndEndWhereTheyAreGivenUp) {
+  const TempFolder folder;
+  const Image8 image{600, 400, std::vector<std::uint8_t>(600 * 400 * 3, 77)};
+  const std::string path = folder.write("a.png", "what was there");
+  const auto givenUpAt = [](double share, const std::function<void(const CancelToken&)>& work) {
+    std::atomic<bool> given_up{false};
+    double last = -1;
+    const CancelToken::Told told = [&](double done) {
+      EXPECT_GE(done, last);
+      last = done;
+      if (done >= share) given_up = true;
+    };
+    EXPECT_THROW(work(CancelToken(given_up, &told)), Cancelled) << share;
+    EXPECT_LT(last, share + 0.1);
+  };
+  for (const double share : {0.0, 0.5, 0.9}) {
+    givenUpAt(share, [&](const CancelToken& cancel) { writePng(path, image, cancel); });
+    EXPECT_EQ(folder.read("a.png"), "what was there");
+  }
+  writePng(path, image);
+  ImageF light{300, 200, std::vector<float>(300 * 200 * 3, 0.5f)};
+  for (std::size_t k = 0; k < light.rgb.size(); ++k) light.rgb[k] = static_cast<float>(k % 977);
+  writeHdr(folder / "a.hdr", light);
+  for (const double share : {0.0, 0.5}) {
+    for (const char* file : {"a.png", "a.hdr"})
+      givenUpAt(share, [&](const CancelToken& cancel) { readPicture(folder / file, cancel); });
+  }
+}
+
 // Two pixels above two others; either order of bytes.
 TEST(ImageFiles, ReadPortableFloatMaps) {
   const TempFolder folder;
@@ -146,7 +239,7 @@ TEST(ImageFiles, ReadPortableFloatMaps) {
     const ImageF image = readImage(folder / "map.pfm");
     EXPECT_EQ(std::pair(image.width, image.height), std::pair(2, 2));
     EXPECT_EQ(image.rgb, wanted) << head;
-    EXPECT_TRUE(holdsLight(folder / "map.pfm"));
+    EXPECT_TRUE(readPicture(folder / "map.pfm").light);
   }
   folder.write("grey.pfm", "Pf\n3 1\n-1\n" + little.substr(0, 12));
   EXPECT_EQ(readImage(folder / "grey.pfm").rgb, (std::vector<float>{7, 7, 7, 8, 8, 8, 9, 9, 9}));
@@ -157,7 +250,7 @@ TEST(ImageFiles, ReadPortableFloatMaps) {
     EXPECT_THROW(readImage(folder / "broken.pfm"), Error) << broken.substr(0, 12);
   }
   writePng(folder / "a.png", Image8{1, 1, {1, 2, 3}});
-  EXPECT_FALSE(holdsLight(folder / "a.png"));
+  EXPECT_FALSE(readPicture(folder / "a.png").light);
 }
 
 TEST(Exporters, WriteWhatTheyAreGiven) {
