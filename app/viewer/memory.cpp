@@ -77,7 +77,7 @@ void RememberedLines::put(const std::string& key, const std::optional<std::strin
     if (name != key && count++ < most_) text += old + "\t" + name + "\n";
   }
   std::filesystem::create_directories(file_.parent_path());
-  writeWholeFile(file_, text);
+  writeWholeFileSoon(file_, text);  // no window waits for a disk
 }
 
 Memory::Memory(std::filesystem::path folder)

@@ -73,9 +73,9 @@ class TemporaryFile {
 
   int descriptor() const { return descriptor_; }
 
-  /// Puts it, synchronised and closed, in the target's place.
-  void replaceTarget() {
-    if (::fsync(descriptor_) != 0 && errno != EINVAL) failWith(target_, errno);
+  /// Puts it, synchronised where it is to be, and closed, in the target's place.
+  void replaceTarget(bool synchronised) {
+    if (synchronised && ::fsync(descriptor_) != 0 && errno != EINVAL) failWith(target_, errno);
     if (unnamed_) {
       const std::string from = procPath(descriptor_);
       const auto link = [&](const char* name) {
@@ -156,6 +156,25 @@ void writeAll(int file, std::string_view bytes, const fs::path& path) {
   }
 }
 
+void writeWhole(const fs::path& path, bool synchronised,
+                const std::function<void(const std::function<void(std::string_view)>&)>& write) {
+  const fs::path target = resolveTarget(path);
+  if (isPipeOrDevice(target)) {
+    const int file = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file < 0) failWith(path, errno);
+    const Closing closing{file};
+    write([&](std::string_view bytes) { writeAll(file, bytes, path); });
+    return;
+  }
+  TemporaryFile temporary(target);
+  struct stat before {};
+  if (::stat(target.c_str(), &before) == 0 && ::fchmod(temporary.descriptor(), before.st_mode & 07777) != 0) {
+    failWith(path, errno);
+  }
+  write([&](std::string_view bytes) { writeAll(temporary.descriptor(), bytes, path); });
+  temporary.replaceTarget(synchronised);
+}
+
 }  // namespace
 
 bool isPipeOrDevice(const fs::path& path) {
@@ -187,26 +206,16 @@ void checkWritable(const fs::path& path) {
 }
 
 void writeWholeFile(const fs::path& path, std::string_view bytes) {
-  writeWholeFile(path, [&](const std::function<void(std::string_view)>& sink) { sink(bytes); });
+  writeWhole(path, true, [&](const auto& sink) { sink(bytes); });
+}
+
+void writeWholeFileSoon(const fs::path& path, std::string_view bytes) {
+  writeWhole(path, false, [&](const auto& sink) { sink(bytes); });
 }
 
 void writeWholeFile(const fs::path& path,
                     const std::function<void(const std::function<void(std::string_view)>&)>& write) {
-  const fs::path target = resolveTarget(path);
-  if (isPipeOrDevice(target)) {
-    const int file = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
-    if (file < 0) failWith(path, errno);
-    const Closing closing{file};
-    write([&](std::string_view bytes) { writeAll(file, bytes, path); });
-    return;
-  }
-  TemporaryFile temporary(target);
-  struct stat before {};
-  if (::stat(target.c_str(), &before) == 0 && ::fchmod(temporary.descriptor(), before.st_mode & 07777) != 0) {
-    failWith(path, errno);
-  }
-  write([&](std::string_view bytes) { writeAll(temporary.descriptor(), bytes, path); });
-  temporary.replaceTarget();
+  writeWhole(path, true, write);
 }
 
 }  // namespace unshot

@@ -27,5 +27,7 @@ void writeWholeFile(const std::filesystem::path& path, std::string_view bytes);
 /// The same for what is not at hand in one piece: `write` gives it to its argument, piece by piece.
 void writeWholeFile(const std::filesystem::path& path,
                     const std::function<void(const std::function<void(std::string_view)>&)>& write);
+/// A file at hand, without waiting for the disk, for what may be lost where the machine loses its power.
+void writeWholeFileSoon(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace unshot

@@ -5,11 +5,22 @@
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "support/error_of.h"
 #include "support/temp_folder.h"
+
+namespace {
+int waits_for_the_disk = 0;
+}
+
+// In the place of the C library's.
+extern "C" int fsync(int file) {
+  ++waits_for_the_disk;
+  return static_cast<int>(::syscall(SYS_fsync, file));
+}
 
 namespace unshot {
 namespace {
@@ -25,6 +36,18 @@ TEST(AtomicFile, WritesAndReplacesAWholeFile) {
   EXPECT_EQ(folder.read("a.txt"), "first");
   writeWholeFile(folder / "a.txt", "2nd");
   EXPECT_EQ(folder.read("a.txt"), "2nd");
+  EXPECT_THAT(folder.names(), ElementsAre("a.txt"));
+}
+
+TEST(AtomicFile, WaitsForTheDiskUnlessItMayBeLost) {
+  const TempFolder folder;
+  const int before = waits_for_the_disk;
+  writeWholeFileSoon(folder / "a.txt", "first");
+  writeWholeFileSoon(folder / "a.txt", "2nd");
+  EXPECT_EQ(folder.read("a.txt"), "2nd");
+  EXPECT_EQ(waits_for_the_disk, before);
+  writeWholeFile(folder / "a.txt", "third");
+  EXPECT_GT(waits_for_the_disk, before);
   EXPECT_THAT(folder.names(), ElementsAre("a.txt"));
 }
 
