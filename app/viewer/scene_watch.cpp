@@ -1,6 +1,5 @@
 #include "viewer/scene_watch.h"
 
-#include <chrono>
 #include <fstream>
 #include <string>
 #include <utility>
@@ -15,12 +14,13 @@ constexpr double kStillSeconds = 0.5;
 
 }  // namespace
 
-std::vector<std::filesystem::path> sceneFiles(const std::filesystem::path& scene) {
+std::vector<std::filesystem::path> sceneFiles(const std::filesystem::path& scene, const CancelToken& cancel) {
   std::vector<std::filesystem::path> files{scene};
   std::ifstream in(scene);
   constexpr std::string_view kKeyword = "mtllib";
   std::string raw;
   while (std::getline(in, raw)) {
+    cancel.check();
     const std::string_view line = trimmed(raw);
     if (!line.starts_with(kKeyword) || line.size() == kKeyword.size()) continue;
     if (const char after = line[kKeyword.size()]; after != ' ' && after != '\t') continue;
@@ -45,15 +45,20 @@ SceneWatch::Stamp SceneWatch::stampOf(const std::filesystem::path& file) {
   return stamp;
 }
 
-SceneWatch::Stamps SceneWatch::stampsOf(const std::filesystem::path& scene, const Stamp& own) {
+SceneWatch::Stamps SceneWatch::stampsOf(const std::filesystem::path& scene, const Stamp& own,
+                                        const CancelToken& cancel) {
   Stamps stamps;
-  for (const std::filesystem::path& file : sceneFiles(scene)) stamps.emplace_back(file, stampOf(file));
+  for (const std::filesystem::path& file : sceneFiles(scene, cancel))
+    stamps.emplace_back(file, stampOf(file));
   stamps.front().second = own;
   return stamps;
 }
 
 void SceneWatch::opening(const std::filesystem::path& scene) {
-  opening_ = {scene, std::async(std::launch::async, stampsOf, scene, stampOf(scene)), {}};
+  const auto read = [scene, own = stampOf(scene)](const CancelToken& cancel) {
+    return stampsOf(scene, own, cancel);
+  };
+  opening_ = {scene, std::make_unique<Background<Stamps>>(read, nullptr), {}};
 }
 
 void SceneWatch::opened() {
@@ -74,8 +79,13 @@ bool SceneWatch::look(double now) {
   if (watched_.scene.empty() || now < next_) return false;
   next_ = now + kFileLookSeconds;
   if (!watched_.stamps) {
-    if (watched_.reading.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
-    watched_.stamps = watched_.reading.get();
+    if (!watched_.reading->ready()) return false;
+    try {
+      watched_.stamps = watched_.reading->take();
+    } catch (...) {  // what cannot be read is not watched
+      stop();
+      return false;
+    }
   }
   Stamps now_there = *watched_.stamps;
   for (auto& [file, stamp] : now_there) stamp = stampOf(file);

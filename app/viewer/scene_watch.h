@@ -3,15 +3,20 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <future>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
+
+#include "viewer/background.h"
 
 namespace unshot {
 
-/// The files that an OBJ names after mtllib, with what else its words may name; itself first.
-std::vector<std::filesystem::path> sceneFiles(const std::filesystem::path& scene);
+/// The files that an OBJ names after mtllib, with what else its words may name; itself first. Throws
+/// Cancelled.
+std::vector<std::filesystem::path> sceneFiles(const std::filesystem::path& scene,
+                                              const CancelToken& cancel = {});
 
 /// Times are wallSeconds().
 class SceneWatch {
@@ -46,11 +51,11 @@ class SceneWatch {
   using Stamps = std::vector<std::pair<std::filesystem::path, Stamp>>;
   struct Watched {
     std::filesystem::path scene;
-    std::future<Stamps> reading;  // of a large file takes its time
+    std::unique_ptr<Background<Stamps>> reading;  // of a large file takes its time
     std::optional<Stamps> stamps;
   };
   static Stamp stampOf(const std::filesystem::path& file);
-  static Stamps stampsOf(const std::filesystem::path& scene, const Stamp& own);
+  static Stamps stampsOf(const std::filesystem::path& scene, const Stamp& own, const CancelToken& cancel);
 
   Watched watched_, opening_;
   Stamps seen_;  // at the last look

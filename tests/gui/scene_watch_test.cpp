@@ -108,6 +108,20 @@ TEST_F(Watch, GoesOnWithTheNextSceneOnlyWhenThatIsOpened) {
   EXPECT_TRUE(std::isinf(watch_.nextLook()));
 }
 
+// Files of a gigabyte are scanned for their materials.
+TEST(SceneWatchOfALargeFile, DoesNotHoldUpTheNextOne) {
+  const TempFolder folder;
+  const std::string large = folder.write("large.obj", std::string(std::size_t{1} << 26, '\n'));
+  const std::string small = folder.write("small.obj", kTriangle);
+  SceneWatch watch;
+  watch.opening(large);
+  const double began = wallSeconds();
+  watch.opening(small);
+  watch.opened();
+  EXPECT_LT(wallSeconds() - began, 0.2);
+  EXPECT_EQ(watch.scene(), small);
+}
+
 class WatchingViewer : public testing::Test {
  protected:
   WatchingViewer() {
