@@ -227,7 +227,8 @@ void SceneDisplay::expose() {
   // A bounce alone may be far too dark for that.
   const bool alone = wanted.settings.view.light.oneBounce();
   const bool whole = wanted.settings.view.light.all() || alone;
-  const bool metering = displayMode(wanted.settings.view.display).tone_mapped;
+  const DisplayMode& mode = displayMode(wanted.settings.view.display);
+  const bool metering = mode.tone_mapped;
   const auto metered = [&] {
     if (!metered_) metered_ = metering ? SceneView::meter(smallCopy(), viewOf(wanted)) : 1;
     return *metered_;
@@ -235,12 +236,21 @@ void SceneDisplay::expose() {
   // Where light never fades, a few bounces would be nothing beside all of it.
   const bool lost = wanted.settings.view.light.bounces && metered() > kMostLost * exposure_;
   const bool follow = !wanted.settings.exposure_locked && (whole || exposed_for_part_ || lost);
-  if (exposed_display_ != wanted.settings.view.display || exposed_alone_ != alone) snap_ = true;
+  const ExposedKind kind{mode.quantity, mode.false_colour, alone};
+  if (!wanted.settings.exposure_locked) {
+    locked_.reset();
+  } else if (!locked_ && exposed_kind_) {
+    locked_ = {*exposed_kind_, exposure_};
+  }
+  if (exposed_display_ != wanted.settings.view.display || exposed_kind_ != kind) snap_ = true;
   exposed_display_ = wanted.settings.view.display;
-  exposed_alone_ = alone;
+  exposed_kind_ = kind;
   gliding_ = false;
   if (const auto& given = wanted.settings.view.automatic_exposure) {
     exposure_ = *given;
+  } else if (locked_ && locked_->kind == kind) {
+    exposure_ = locked_->exposure;
+    snap_ = false;
   } else if (follow || snap_) {
     exposure_ = nextExposure(metered(), glide_seconds_);
     exposed_for_part_ = !whole;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "render/automatic_camera.h"
+#include "render/display_modes.h"
 #include "render/histogram.h"
 #include "render/scene_view.h"
 #include "session/snapshot.h"
@@ -26,7 +27,7 @@ struct DisplaySettings {
   /// Display mode, exposure_ev, ambient, light, reference and, where it is given, automatic_exposure; the
   /// rest is chosen here.
   ViewOptions view;
-  bool exposure_locked = false;  ///< keeps the present exposure instead of following the light
+  bool exposure_locked = false;  ///< keeps the present exposure, of what is shown then, whatever comes
   bool histogram = false;        ///< SceneDisplay::histogram() is wanted
 };
 
@@ -105,7 +106,7 @@ class SceneDisplay {
   bool gliding() const { return gliding_; }
   /// Of the picture shown; none where it was not wanted of that one.
   const std::optional<LuminanceHistogram>& histogram() const { return histogram_; }
-  /// The next picture takes its own exposure at once.
+  /// The next picture takes its own exposure at once, where it is not locked.
   void snapExposure() { snap_ = true; }
 
  private:
@@ -177,7 +178,18 @@ class SceneDisplay {
   bool gliding_ = false, snap_ = true;
   std::string exposed_display_;    // exposure_ is for this display
   bool exposed_for_part_ = false;  // and from a part of the light
-  bool exposed_alone_ = false;     // which is a bounce alone
+  /// What has an exposure of its own.
+  struct ExposedKind {
+    Quantity quantity;
+    bool false_colour, alone;  // alone: one bounce
+    bool operator==(const ExposedKind&) const = default;
+  };
+  struct Locked {
+    ExposedKind kind;
+    double exposure;
+  };
+  std::optional<ExposedKind> exposed_kind_;  // exposure_ is for it
+  std::optional<Locked> locked_;             // where it is locked: the one that is kept
 };
 
 }  // namespace unshot
