@@ -71,8 +71,10 @@ void editMaterial(Viewer& viewer, const Material& m) {
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
   Colour colour = floats(m.emission / strength);
-  if (editColour("##colour", colour))
-    viewer.perform("emission", m.name + " " + colourText(strength * doubles(colour)));
+  const bool edited = editColour("##colour", colour);
+  // A colour alone: darker is for the slider, and black is none.
+  if (const double most = strengthOf(doubles(colour)); edited && most > 0)
+    viewer.perform("emission", m.name + " " + colourText(strength / most * doubles(colour)));
   tooltip("Colour of its emission, E over its strongest channel: 0 to 1");
   label("Strength", "Emission E [W/m\u00b2] of its strongest channel: what leaves a square metre of it");
   float value = static_cast<float>(strength);
