@@ -159,6 +159,39 @@ TEST_F(ViewerCamera, PresetsAreOfferedWhereTheyFit) {
 }
 
 // As long as it is the one that was found.
+TEST(CameraPreset, WithoutASceneChangesNothing) {
+  LiveViewer live(LiveViewer::Options{});
+  live->perform("projection", "orthographic");
+  live->perform("camera-preset", "cornell");
+  EXPECT_TRUE(live->error());
+  EXPECT_TRUE(live->camera().orthographic);
+}
+
+TEST_F(ViewerCamera, KeepsALockedExposure) {
+  live_->perform("lock-exposure", "on");
+  rest();
+  const double exposure = live_->exposure();
+  live_->perform("exposure", "2");
+  for (const char* display : {"normals", "false-radiosity", "mesh", "radiosity"}) {
+    act("display", display);
+    rest();
+  }
+  EXPECT_EQ(live_->exposure(), exposure);
+  live_->navigator().orbit({100, 0}, 300);
+  act("frame");
+  rest();
+  EXPECT_EQ(live_->exposure(), exposure);
+  act("display", "normals");
+  rest();
+  EXPECT_EQ(live_->exposure(), 1) << "of what has none";
+  act("display", "radiosity");
+  act("lock-exposure", "off");
+  live_->navigator().zoom(8);
+  live_->input();
+  rest();
+  EXPECT_NE(live_->exposure(), exposure);
+}
+
 TEST_F(ViewerCamera, IsFoundAgainForAWindowOfAnotherShape) {
   const auto resize = [&](const std::string& size) {
     act("size", size);

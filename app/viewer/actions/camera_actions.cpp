@@ -20,8 +20,8 @@ void runCamera(Viewer& viewer, const std::string& text) {
 
 void runPreset(Viewer& viewer, const std::string& key) {
   const Camera& camera = findChoice(cameraPresets(), key, "camera").camera;
+  viewer.setCamera(camera.eye, camera.at, camera.fov_deg);  // throws without a scene
   viewer.navigator().setOrthographic(camera.orthographic);
-  viewer.setCamera(camera.eye, camera.at, camera.fov_deg);
 }
 
 void runProjection(Viewer& viewer, const std::string& text) {
