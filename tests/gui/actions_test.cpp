@@ -54,6 +54,15 @@ TEST(Actions, KeysAndShortcutsAreUnique) {
   EXPECT_EQ(actionOfKey('Z', false), nullptr);
 }
 
+TEST(DroppedFiles, TheFirstSceneCounts) {
+  const auto chosen = [](std::initializer_list<const char*> files) {
+    return chosenFile({files.begin(), files.size()}).string();
+  };
+  EXPECT_EQ(chosen({"a.mtl", "b.png", "c.OBJ", "d.obj"}), "c.OBJ");
+  EXPECT_EQ(chosen({"a.mtl", "b.HDR", "c.png"}), "b.HDR");
+  EXPECT_EQ(chosen({"a.mtl", "b.txt"}), "a.mtl");
+}
+
 TEST(Actions, UnknownOnesAreUsageErrors) {
   for (const char* key : {"", "jump", "Quit", "step "}) {
     try {

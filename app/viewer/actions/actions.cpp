@@ -3,13 +3,14 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <array>
-#include <cctype>
 #include <vector>
 
 #include "base/error.h"
 #include "base/parse.h"
 #include "viewer/actions/action_groups.h"
+#include "viewer/file_list.h"
 
 namespace unshot {
 
@@ -67,12 +68,21 @@ std::string checkArgument(const Action& action, const std::string& argument) {
 }
 
 std::string_view actionOfFile(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = lowered(file.extension().string());
   for (const char* picture : {".png", ".hdr", ".pfm", ".jpg", ".jpeg"}) {
     if (ending == picture) return "reference-picture";
   }
   return "open";
+}
+
+std::filesystem::path chosenFile(std::span<const char* const> files) {
+  const auto first = [&](auto&& fits) { return std::find_if(files.begin(), files.end(), fits); };
+  const auto isScene = [](const char* file) {
+    return lowered(std::filesystem::path(file).extension().string()) == ".obj";
+  };
+  auto found = first(isScene);
+  if (found == files.end()) found = first([](const char* file) { return actionOfFile(file) != "open"; });
+  return found == files.end() ? files.front() : *found;
 }
 
 const Action* actionOfKey(int key, bool ctrl) {

@@ -61,6 +61,10 @@ std::string checkArgument(const Action& action, const std::string& argument);
 /// The action for a file that was dropped on the window: pictures are compared with, all else is opened.
 std::string_view actionOfFile(const std::filesystem::path& file);
 
+/// Of files that were dropped together, at least one: the first scene, else the first picture, else the
+/// first.
+std::filesystem::path chosenFile(std::span<const char* const> files);
+
 /// The action that a key stands for, or null.
 const Action* actionOfKey(int key, bool ctrl);
 
