@@ -14,7 +14,6 @@
 #include "cli/solver_arguments.h"
 #include "render/display_modes.h"
 #include "render/picture.h"
-#include "session/saved_solve.h"
 #include "viewer/offscreen.h"
 #include "viewer/window.h"
 
@@ -75,8 +74,9 @@ class ViewArguments {
     checkScene(setup.scene);
     checkSave(setup.scene);
     setup.session.kept = {saving_.save(), saving_.saveEvery(), setup.scene};
-    setup.saved = readResumed(saving_.resume(), solver_.errorGiven(), setup.options);
-    if (setup.saved) setup.options = withoutMesh(setup.saved->options(setup.options));
+    checkResume();
+    setup.resume = saving_.resume();
+    setup.error_given = solver_.errorGiven();
     WindowOptions window;
     if (!size_.empty()) {
       const std::vector<std::string_view> parts = splitParts(size_, 'x');
@@ -91,11 +91,16 @@ class ViewArguments {
     return runOffscreen(std::move(setup), solver_.gl(), window.width, window.height);
   }
 
-  /// What need not wait for a window: a name with nothing behind it.
+  // What need not wait for a window: a name with nothing behind it.
   static void checkScene(const std::filesystem::path& scene) {
     std::error_code error;
     if (std::filesystem::exists(scene, error)) return;
     throw Error(ErrorKind::kInput, "there is no such file", scene.string(), "the path of an OBJ file");
+  }
+  void checkResume() const {
+    std::error_code error;
+    if (saving_.resume().empty() || std::filesystem::exists(saving_.resume(), error)) return;
+    throw Error(ErrorKind::kInput, "there is no such file", saving_.resume(), "a saved solve of unshot");
   }
 
   /// Whether the solve can be saved is found out before it begins.
@@ -106,12 +111,6 @@ class ViewArguments {
                   "another file name");
     }
     checkWritable(saving_.save());
-  }
-
-  /// The panel's options: a mesh for other ones is cut anew.
-  static SolveOptions withoutMesh(SolveOptions options) {
-    options.mesh.reset();
-    return options;
   }
 
   static std::vector<std::filesystem::path> bundledScenes() {

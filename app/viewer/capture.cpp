@@ -13,8 +13,9 @@ constexpr int kSamplesAlongPixel = 3;
 
 }  // namespace
 
-/// unshot-SCENE-001 and the ending, in the working folder, the first number that is free.
-std::filesystem::path Viewer::newFileName(const std::string& ending) const {
+/// unshot-SCENE-001 and the ending, in the folder (none: the working folder), the first number that is free.
+std::filesystem::path Viewer::newFileName(const std::string& ending,
+                                          const std::filesystem::path& folder) const {
   std::string stem = "unshot";
   if (state_->facts) stem += "-" + state_->facts->scene_name;
   for (char& c : stem) {
@@ -23,8 +24,14 @@ std::filesystem::path Viewer::newFileName(const std::string& ending) const {
   for (int number = 1;; ++number) {
     std::string digits = std::to_string(number);
     digits.insert(0, digits.size() < 3 ? 3 - digits.size() : 0, '0');
-    const std::filesystem::path path = std::filesystem::absolute(stem + "-" + digits + ending);
-    if (!screenshots_.promised(path) && !std::filesystem::exists(path)) return path;
+    std::error_code error;
+    const std::filesystem::path path =
+        std::filesystem::absolute(folder / (stem + "-" + digits + ending), error);
+    if (error) {
+      throw Error(ErrorKind::kEnvironment, "the working folder is gone (" + error.message() + ")", {},
+                  "the action with a path in another folder");
+    }
+    if (!screenshots_.promised(path) && !std::filesystem::exists(path, error)) return path;
   }
 }
 
@@ -40,8 +47,8 @@ void Viewer::followScreenshots(double now) {
   try {
     if (const auto path = screenshots_.written()) notice("written: " + path->string());
   } catch (const Cancelled&) {
-  } catch (const Error& error) {
-    fail(error);
+  } catch (...) {
+    fail(presentError());
   }
   if (!screenshots_.toBegin()) return;
   screenshots_.begin({navigator_.camera(), ui_.settings}, now);
@@ -62,8 +69,8 @@ void Viewer::keepScreenshot(int width, int height) {
     if (sceneStands()) scene_.beginFiner(kSamplesAlongPixel);
     screenshots_.keep({width, height, scene_width_}, *ImGui::GetDrawData(),
                       {referencePicture() ? reference_picture_ : nullptr, referenceLook()});
-  } catch (const Error& error) {
-    failScreenshot(error);
+  } catch (...) {
+    failScreenshot(presentError());
   }
 }
 
@@ -72,8 +79,8 @@ void Viewer::drawScreenshot(double deadline) {
     if (!scene_.continueFiner(deadline)) return;
     screenshots_.write(scene_);
     scene_.endFiner();
-  } catch (const Error& error) {
-    failScreenshot(error);
+  } catch (...) {
+    failScreenshot(presentError());
   }
   input();
 }

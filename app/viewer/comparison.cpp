@@ -126,7 +126,11 @@ std::string lightText(const SessionState& state, const LightChoice& choice) {
   if (choice.all()) return {};
   if (!choice.indirect) return "direct light only";
   const std::uint32_t bounces = shownBounces(*state.snapshot, choice);
-  if (bounces > 0) return bouncesText(bounces, choice.alone);
+  if (bounces == *choice.bounces) return bouncesText(bounces, choice.alone);
+  if (bounces > 0) {
+    const std::string rest = choice.alone ? "; bounce " + countText(*choice.bounces) + " is" : "; more are";
+    return bouncesText(bounces, choice.alone) + rest + " not known" + (state.bounces_under_way ? " yet" : "");
+  }
   const std::string wait = bounceWaitText(state);
   return bouncesText(*choice.bounces, choice.alone) +
          " not known yet, all light is shown: " + (wait.empty() ? "worked out while the solve rests" : wait);

@@ -12,6 +12,7 @@
 #include "viewer/panels/panels.h"
 #include "viewer/panels/reference_picture_panel.h"
 #include "viewer/panels/status_line.h"
+#include "viewer/teaching.h"
 #include "viewer/viewer.h"
 
 namespace unshot {
@@ -28,7 +29,7 @@ constexpr double kSliceSeconds = 0.004;
 constexpr double kSceneSeconds = 0.01;
 // A window that waits for something shows how far it is.
 constexpr double kProgressSeconds = 0.1;
-// While it solves, the difference from a reference picture is found no more often than so.
+// The difference from a reference picture is found no more often than so, and not while the camera moves.
 constexpr double kMeasureSeconds = 0.5;
 
 bool idle(SessionPhase phase) { return phase != SessionPhase::kRunning && phase != SessionPhase::kLoading; }
@@ -51,8 +52,11 @@ double Viewer::nextFrame(double now) const {
 /// When the window itself waits for a frame.
 double Viewer::nextPaint() const {
   const bool poses = screenshots_.posing() && (!screenshots_.panelsStand() || screenshotStands());
-  if (gui_frames_ == 0 && !poses && !navigator_.moving())
-    return waitsForFiles() || scene_.framing() || state_->saving ? last_frame_ + kProgressSeconds : kNever;
+  if (gui_frames_ == 0 && !poses && !navigator_.moving()) {
+    const bool waits =
+        waitsForFiles() || scene_.framing() || state_->saving || teaching_->preparing().has_value();
+    return std::min(waits ? last_frame_ + kProgressSeconds : kNever, nextMeasure());
+  }
   const double soon = last_frame_ + kFrameSeconds;
   const bool unlit = screenshots_.posing() && !screenshots_.lit();
   const bool making =
@@ -62,7 +66,8 @@ double Viewer::nextPaint() const {
 
 /// When the picture of the scene is to be gone on with.
 double Viewer::nextSceneWork() const {
-  if (scene_.framing() || screenshots_.drawing() || (sceneStands() && scene_.outdated(wanted())))
+  if (scene_.framing() || screenshots_.drawing() || coming_picture_ ||
+      (sceneStands() && scene_.outdated(wanted())))
     return last_scene_work_;
   if (screenshots_.posing() && !screenshots_.lit()) return last_scene_work_;
   const double soon = last_scene_work_ + kFrameSeconds;
@@ -158,6 +163,7 @@ bool Viewer::prepare() {
   // A GPU draws all of it in the frame.
   const bool shown = sceneStands() && (renderer().hardware || drawScene(now, now + kSliceSeconds));
   if (screenshots_.drawing()) drawScreenshot(wallSeconds() + kSliceSeconds);
+  if (coming_picture_) sendReferencePicture(wallSeconds() + kSliceSeconds);
   last_scene_work_ = wallSeconds();
   if (drew_scene_) picture_cost_ += last_scene_work_ - now;
   return paint || shown || framed;
@@ -203,21 +209,24 @@ bool Viewer::draw(GLuint framebuffer, int width, int height) {
     buildLecture(*this, scene_width_, beside.lecture);
     buildHemicube(*this, edge);
   }
-  buildOverlays(*this, scene_width_, bottom, !screenshots_.posing(), scene_.framing() || frame_wanted_);
+  buildOverlays(*this, scene_width_, bottom, !stands, scene_.framing() || frame_wanted_);
   ImGui::Render();
 
   if (renderer().hardware) {
     takeSnapshot(now);
     if (sceneStands()) drawScene(now, SceneDisplay::kAtOnce);
   }
+  if (screenshots_.posing()) screenshots_.noteFrame();
+  if (stands) {  // this frame is for the file, which shows no notices
+    keepScreenshot(width, height);
+    input();
+    last_frame_end_ = wallSeconds();
+    return false;
+  }
   const PaintedLook look{framebuffer, width, height, scene_.version(), fingerprint(*ImGui::GetDrawData())};
   const bool changed = painted_ != look;
   painted_ = look;
   if (changed) paint(framebuffer, width, height);
-  if (stands) keepScreenshot(width, height);
-  if (screenshots_.posing()) screenshots_.noteFrame();
-  // The next frame measures what this one shows.
-  if (changed && referencePicture()) gui_frames_ = std::max(gui_frames_, 1);
   gl::checkErrors(setup_.display->functions(), "drawing a frame of the viewer");
   if (!changed) last_frame_end_ = wallSeconds();
   return changed;
@@ -251,9 +260,16 @@ ReferencePicture::Look Viewer::referenceLook() const {
   return {ui_.settings.view, scene_.exposure(), ui_.wipe, ui_.picture_difference};
 }
 
+/// When the picture is to be compared with the reference again; infinity where that is done.
+double Viewer::nextMeasure() const {
+  if (!referencePicture() || !sceneStands() ||
+      !reference_picture_->unmeasured(scene_, scene_width_, scene_height_, referenceLook()))
+    return kNever;
+  return std::max(last_measured_ + kMeasureSeconds, last_motion_ + kRestSeconds);
+}
+
 void Viewer::measureReference(double now) {
-  if (!referencePicture() || !sceneStands()) return;
-  if (!idle(state_->phase) && now < last_measured_ + kMeasureSeconds) return;
+  if (now < nextMeasure()) return;
   last_measured_ = now;
   reference_picture_->measure(scene_, scene_width_, scene_height_, referenceLook());
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/clock.h"
 #include "formfactor/hemicube_choice.h"
 #include "formfactor/hemicube_rays.h"
 #include "formfactor/item_elements.h"
@@ -54,7 +55,22 @@ HemicubeLook HemicubeEye::look(std::uint32_t patch) {
 HemicubeLooks::HemicubeLooks(std::function<void()> wake)
     : wake_(std::move(wake)), thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-HemicubeLooks::~HemicubeLooks() { closing_ = true; }
+HemicubeLooks::~HemicubeLooks() {
+  giveUp();
+  const std::scoped_lock lock(mutex_);
+  closing_ = true;
+}
+
+void HemicubeLooks::giveUp() {
+  const std::scoped_lock lock(mutex_);
+  wanted_.reset();
+  given_up_ = true;
+}
+
+std::optional<double> HemicubeLooks::preparing() const {
+  const std::scoped_lock lock(mutex_);
+  return preparing_;
+}
 
 void HemicubeLooks::want(std::shared_ptr<const Mesh> mesh, std::uint32_t patch) {
   {
@@ -88,27 +104,32 @@ void HemicubeLooks::run(const std::stop_token& stop) {
       if (!arrived_.wait(lock, stop, [&] { return wanted_.has_value(); })) return;
       wanted = *std::exchange(wanted_, std::nullopt);
       looking_ = true;
+      given_up_ = closing_;
+      // Meshes that differ in materials alone look the same.
+      if (!eye || eye->mesh()->cut != wanted.mesh->cut) {
+        preparing_ = wallSeconds();
+        eye.reset();
+      }
     }
     std::shared_ptr<const HemicubeLook> seen;
     std::optional<Error> problem;
     try {
-      // Meshes that differ in materials alone look the same.
-      if (!eye || eye->mesh()->cut != wanted.mesh->cut) {
-        eye.reset();
-        eye.emplace(wanted.mesh, CancelToken(closing_));
-      }
+      if (!eye) eye.emplace(wanted.mesh, CancelToken(given_up_));
       seen = std::make_shared<const HemicubeLook>(eye->look(wanted.patch));
     } catch (const Cancelled&) {
-      return;
     } catch (...) {
       problem = presentError();
       eye.reset();
     }
     {
       const std::scoped_lock lock(mutex_);
-      latest_ = std::move(seen);
-      problem_ = std::move(problem);
+      if (closing_) return;
+      if (!given_up_) {
+        latest_ = std::move(seen);
+        problem_ = std::move(problem);
+      }
       looking_ = false;
+      preparing_.reset();
     }
     if (wake_) wake_();
   }

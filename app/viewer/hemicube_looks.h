@@ -66,6 +66,11 @@ class HemicubeLooks {
   bool pending() const;
   /// The newest; null before the first, and where looking failed.
   std::shared_ptr<const HemicubeLook> latest() const;
+  /// Since when [wallSeconds()] it gets ready for another mesh, which takes its time where that is large;
+  /// none where it does not.
+  std::optional<double> preparing() const;
+  /// Gives up what is wanted.
+  void giveUp();
   /// Why it failed.
   std::optional<Error> problem() const;
 
@@ -77,11 +82,12 @@ class HemicubeLooks {
   void run(const std::stop_token& stop);
 
   std::function<void()> wake_;
-  std::atomic<bool> closing_{false};
+  std::atomic<bool> given_up_{false};
   mutable std::mutex mutex_;  // of what follows
   std::condition_variable_any arrived_;
   std::optional<Wanted> wanted_;
-  bool looking_ = false;
+  bool looking_ = false, closing_ = false;
+  std::optional<double> preparing_;
   std::shared_ptr<const HemicubeLook> latest_;
   std::optional<Error> problem_;
   std::jthread thread_;  // last: it uses all of the above

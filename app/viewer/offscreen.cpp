@@ -80,8 +80,8 @@ int runOffscreen(ViewerSetup setup, const std::string& provider, int width, int 
       }
       bell.wait(std::clamp(std::min(viewer.nextFrame(now), viewer.nextUpdate()) - now, 0.0, 1.0));
     }
-  } catch (const Error& error) {
-    throw viewer.rescue(error);
+  } catch (...) {
+    throw viewer.rescue(presentError());
   }
   viewer.finish();
   return viewer.exitCode();

@@ -3,26 +3,30 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/srgb.h"
 #include "export/image_files.h"
 #include "render/display_modes.h"
 #include "render/targets.h"
 #include "render/uploads.h"
+#include "viewer/mip_levels.h"
 
 namespace unshot {
 namespace {
 
+constexpr double kReadingShare = 0.8;            // of the time until it is in memory; the rest: levels
+constexpr std::size_t kUploadPixels = 1u << 16;  // sent at a time
+
 // OpenGL's first row is the lowest.
-std::vector<float> upwards(const ImageF& image) {
-  std::vector<float> out;
-  out.reserve(image.rgb.size());
+void turnOver(ImageF& image) {
   const auto row = 3 * static_cast<std::ptrdiff_t>(image.width);
-  for (std::ptrdiff_t y = image.height - 1; y >= 0; --y)
-    out.insert(out.end(), image.rgb.begin() + y * row, image.rgb.begin() + (y + 1) * row);
-  return out;
+  for (std::ptrdiff_t low = 0, high = image.height - 1; low < high; ++low, --high)
+    std::swap_ranges(image.rgb.begin() + low * row, image.rgb.begin() + (low + 1) * row,
+                     image.rgb.begin() + high * row);
 }
 
 double scaleOf(const ReferencePicture::Look& look) {
@@ -58,41 +62,72 @@ std::optional<double> relativeError(const std::vector<std::uint8_t>& ours,
 
 ReferencePicture::Content ReferencePicture::read(const std::filesystem::path& file,
                                                  const CancelToken& cancel) {
-  const bool light = holdsLight(file);
-  cancel.check();
-  const ImageF image = readImage(file);
-  cancel.check();
-  return {file, light, image.width, image.height, upwards(image)};
+  PictureFile picture = readPicture(file, cancel.part(0, kReadingShare));
+  cancel.report(kReadingShare);
+  turnOver(picture.image);
+  return {file, picture.light, mipLevels(std::move(picture.image), cancel)};
 }
 
-ReferencePicture::ReferencePicture(gl::Context& context, const Content& image)
+ReferencePicture::ReferencePicture(gl::Context& context, Content content)
     : context_(context),
-      name_(image.file.filename().string()),
-      light_(image.light),
+      name_(content.file.filename().string()),
+      light_(content.light),
       no_attributes_(context),
       reference_(context),
+      levels_(std::move(content.levels)),
       ours_{gl::Texture(context), gl::Framebuffer(context)},
       theirs_{gl::Texture(context), gl::Framebuffer(context)} {
   const gl::Functions& fn = context.functions();
+  const ImageF& image = levels_.front();
   GLint largest = 0;
   fn.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   if (std::max(image.width, image.height) > largest) {
     throw Error(ErrorKind::kEnvironment,
                 "the picture has " + std::to_string(image.width) + " x " + std::to_string(image.height) +
                     " pixels; this OpenGL driver takes " + std::to_string(largest) + " at most along a side",
-                image.file.string(), "a smaller picture");
+                content.file.string(), "a smaller picture");
   }
   aspect_ = static_cast<double>(image.width) / image.height;
   fn.BindTexture(GL_TEXTURE_2D, reference_.id());
-  fn.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  fn.TexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, image.width, image.height, 0, GL_RGB, GL_FLOAT,
-                image.rgb.data());
+  const auto last = static_cast<GLint>(levels_.size()) - 1;
+  fn.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, last);
   fn.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   fn.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   fn.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   fn.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  fn.GenerateMipmap(GL_TEXTURE_2D);
+  for (GLint level = 0; level <= last; ++level) {
+    const ImageF& one = levels_[static_cast<std::size_t>(level)];
+    fn.TexImage2D(GL_TEXTURE_2D, level, GL_RGB32F, one.width, one.height, 0, GL_RGB, GL_FLOAT, nullptr);
+    bytes_ += one.rgb.size() * sizeof(float);
+  }
   fn.BindTexture(GL_TEXTURE_2D, 0);
+  gl::checkErrors(fn, "making room for the picture " + name_);
+}
+
+void ReferencePicture::upload(double deadline) {
+  if (levels_.empty()) return;
+  const gl::Functions& fn = context_.functions();
+  fn.BindTexture(GL_TEXTURE_2D, reference_.id());
+  fn.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  do {
+    const ImageF& image = levels_[level_];
+    const std::size_t width = static_cast<std::size_t>(image.width),
+                      height = static_cast<std::size_t>(image.height);
+    const std::size_t rows = std::clamp<std::size_t>(kUploadPixels / width, 1, height - row_);
+    fn.TexSubImage2D(GL_TEXTURE_2D, static_cast<GLint>(level_), 0, static_cast<GLint>(row_), image.width,
+                     static_cast<GLsizei>(rows), GL_RGB, GL_FLOAT, &image.rgb[3 * width * row_]);
+    sent_ += 3 * sizeof(float) * width * rows;
+    row_ += rows;
+    if (row_ < height) continue;
+    row_ = 0;
+    if (++level_ == levels_.size()) levels_ = {};
+  } while (!levels_.empty() && wallSeconds() < deadline);
+  fn.BindTexture(GL_TEXTURE_2D, 0);
+  gl::checkErrors(fn, "sending the picture " + name_ + " to the driver");
+}
+
+double ReferencePicture::uploaded() const {
+  return levels_.empty() ? 1 : static_cast<double>(sent_) / static_cast<double>(bytes_);
 }
 
 bool ReferencePicture::comparable(const ViewOptions& view) {
@@ -163,11 +198,19 @@ void ReferencePicture::draw(const CopyScene& scene, GLuint framebuffer, int widt
   compose(framebuffer, look, look.wipe, look.difference);
 }
 
+ReferencePicture::Measured ReferencePicture::measuredOf(const SceneArea& scene, int width, int height,
+                                                        const Look& look) {
+  return {scene.version(), width, height, look.view.display, look.view.tone, scaleOf(look)};
+}
+
+bool ReferencePicture::unmeasured(const SceneArea& scene, int width, int height, const Look& look) const {
+  return width > 0 && height > 0 && comparable(look.view) &&
+         measured_ != measuredOf(scene, width, height, look);
+}
+
 void ReferencePicture::measure(const SceneArea& scene, int width, int height, const Look& look) {
-  if (width <= 0 || height <= 0 || !comparable(look.view)) return;
-  const Measured now{scene.version(), width, height, look.view.display, look.view.tone, scaleOf(look)};
-  if (measured_ == now) return;
-  measured_ = now;
+  if (!unmeasured(scene, width, height, look)) return;
+  measured_ = measuredOf(scene, width, height, look);
   const gl::Functions& fn = context_.functions();
   const StateGuard guard(fn);
   takeOurs([&](int columns) { scene.copyTo(columns); }, width, height);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/cancel.h"
+#include "base/image.h"
 #include "gl/objects.h"
 #include "viewer/scene_area.h"
 
@@ -25,14 +26,18 @@ class ReferencePicture {
   /// What its file holds.
   struct Content {
     std::filesystem::path file;
-    bool light = false;  ///< linear light, to be exposed
-    int width = 0, height = 0;
-    std::vector<float> rgb;  ///< lowest row first
+    bool light = false;          ///< linear light, to be exposed
+    std::vector<ImageF> levels;  ///< lowest rows first; each half as large as the one before
   };
   /// Any thread. Throws Error (kInput) where the file is no picture, Cancelled.
   static Content read(const std::filesystem::path& file, const CancelToken& cancel = {});
-  /// Throws Error (kEnvironment) where it is too large for the driver.
-  ReferencePicture(gl::Context& context, const Content& content);
+  /// Begins to send it to the driver. Throws Error (kEnvironment) where it is too large for that.
+  ReferencePicture(gl::Context& context, Content content);
+  /// Goes on with that until wallSeconds() is about `deadline`. Nothing may be drawn before it is whole.
+  /// Throws Error (kEnvironment).
+  void upload(double deadline);
+  /// How much is there, from 0 to 1, which is whole.
+  double uploaded() const;
 
   /// How the scene's picture is shown, and where the line is: 0 left, 1 right.
   struct Look {
@@ -55,6 +60,8 @@ class ReferencePicture {
   void draw(const CopyScene& scene, GLuint framebuffer, int width, int height, const Look& look);
   /// Finds error(), where the picture is another than before.
   void measure(const SceneArea& scene, int width, int height, const Look& look);
+  /// Whether it is.
+  bool unmeasured(const SceneArea& scene, int width, int height, const Look& look) const;
 
  private:
   struct Picture {
@@ -74,6 +81,9 @@ class ReferencePicture {
   std::string program_tone_;  // the tone curve in it
   gl::VertexArray no_attributes_;
   gl::Texture reference_;
+  std::vector<ImageF> levels_;       // what is still to be sent
+  std::size_t level_ = 0, row_ = 0;  // the first that is not sent
+  std::size_t sent_ = 0, bytes_ = 0;
   Picture ours_, theirs_;
   std::optional<double> error_;
   /// What error_ is of.
@@ -84,6 +94,7 @@ class ReferencePicture {
     double exposure;
     bool operator==(const Measured&) const = default;
   };
+  static Measured measuredOf(const SceneArea& scene, int width, int height, const Look& look);
   std::optional<Measured> measured_;
 };
 

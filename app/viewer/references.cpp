@@ -1,4 +1,6 @@
 // What the viewer's picture is compared with, read from files beside the window.
+#include <utility>
+
 #include "viewer/comparison.h"
 #include "viewer/viewer.h"
 
@@ -21,14 +23,33 @@ void Viewer::forget() {
 }
 
 void Viewer::loadReferencePicture(const std::filesystem::path& file) {
+  giveUpReferencePicture();
   picture_load_.begin(
       file, [file](const CancelToken& cancel) { return ReferencePicture::read(file, cancel); },
       setup_.session.wake);
 }
 
-void Viewer::forgetReferencePicture() {
+void Viewer::giveUpReferencePicture() {
   picture_load_.giveUp();
+  coming_picture_.reset();
+}
+
+void Viewer::forgetReferencePicture() {
+  giveUpReferencePicture();
   reference_picture_.reset();
+}
+
+/// Goes on with sending one to the driver; once it is there it takes the place of the one before.
+void Viewer::sendReferencePicture(double deadline) {
+  try {
+    coming_picture_->upload(deadline);
+  } catch (...) {
+    coming_picture_.reset();
+    return fail(presentError());
+  }
+  if (coming_picture_->uploaded() < 1) return;
+  reference_picture_ = std::exchange(coming_picture_, nullptr);
+  passingNotice("compared with " + reference_picture_->name());
 }
 
 /// Takes what is read.
@@ -40,12 +61,13 @@ void Viewer::followLoads() {
       ui_.settings.view.reference = *light;
       passingNotice("compared with " + (*light)->name);
     }
-    if (const auto content = picture_load_.take()) {
-      reference_picture_ = std::make_shared<ReferencePicture>(*setup_.display, *content);
-      passingNotice("compared with " + reference_picture_->name());
+    if (auto content = picture_load_.take()) {
+      coming_picture_ = std::make_shared<ReferencePicture>(*setup_.display, std::move(*content));
+      input();
     }
-  } catch (const Error& error) {
-    fail(error);
+  } catch (const Cancelled&) {
+  } catch (...) {
+    fail(presentError());
   }
 }
 

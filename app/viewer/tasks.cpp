@@ -7,6 +7,8 @@
 namespace unshot {
 namespace {
 
+constexpr double kReadingShare = 0.8;  // of the time that a reference picture takes
+
 template <class Result>
 Task taskOf(FileLoad<Result>& load) {
   return {"reading " + load.file().filename().string(), load.done(), "nothing else is compared with",
@@ -32,18 +34,33 @@ std::vector<Task> Viewer::tasks() {
                    "no file is written", give_up, *since});
   }
   if (reference_load_.underWay()) out.push_back(taskOf(reference_load_));
-  if (picture_load_.underWay()) out.push_back(taskOf(picture_load_));
+  if (picture_load_.underWay() || coming_picture_) {
+    Task task = taskOf(picture_load_);
+    const double read = task.done.value_or(0), sent = coming_picture_ ? coming_picture_->uploaded() : 0;
+    if (task.done || coming_picture_)
+      task.done = kReadingShare * (coming_picture_ ? 1 : read) + (1 - kReadingShare) * sent;
+    task.giveUp = [this] { giveUpReferencePicture(); };
+    out.push_back(task);
+  }
   if (state_->saving)
     out.push_back({state_->task, state_->task_done, "a file that is there stays as it was",
                    [this] { session_.giveUpSaving(); }, state_->task_began});
+  if (state_->completing)
+    out.push_back({"computing form factors for bounces", state_->completing,
+                   "what is computed stays, the rest is missing", [this] { session_.giveUpBounces(); },
+                   state_->completing_began});
   if (state_->gathering)
     out.push_back({"gathering M", state_->gathering, "the lecture is closed",
-                   [this] { teaching_->choices.lecture = false; }, state_->task_began});
+                   [this] { teaching_->choices.lecture = false; }, state_->gathering_began});
+  if (const auto since = teaching_->preparing())
+    out.push_back({"preparing the hemicube", std::nullopt, "the hemicube is closed",
+                   [this] { teaching_->giveUpLooking(); }, *since});
   return out;
 }
 
-bool Viewer::giveUp() {
-  const std::vector<Task> all = tasks();
+bool Viewer::giveUp(bool shown) {
+  std::vector<Task> all = tasks();
+  if (shown) std::erase_if(all, [](const Task& task) { return !task.shown(wallSeconds()); });
   if (all.empty()) return false;
   giveUp(all.front());
   return true;

@@ -13,6 +13,8 @@ struct Task {
   const char* given_up;        ///< what becomes of it then, for a tooltip
   std::function<void()> giveUp;
   double since = 0;  ///< wallSeconds()
+  /// What takes no longer than a moment is not shown.
+  bool shown(double now) const { return now >= since + 0.3; }
 };
 
 }  // namespace unshot

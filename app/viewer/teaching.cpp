@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 
 #include "base/clock.h"
 
@@ -10,20 +9,24 @@ namespace unshot {
 namespace {
 
 constexpr double kLookSeconds = 0.25;  // between two looks, or two paintings, while the solve runs
-constexpr std::size_t kOutlines = 8;   // kept
+constexpr std::size_t kOutlines = 64;  // kept
 
 /// The edges around display triangles that `inside` has, each run along once.
 template <class Inside>
 std::vector<std::pair<glm::vec3, glm::vec3>> outlineAround(const Mesh& mesh, Inside&& inside) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
   for (std::uint32_t t = 0; t < mesh.triangle_element.size(); ++t) {
     if (!inside(mesh.element_patch[mesh.triangle_element[t]])) continue;
     for (std::uint32_t k = 0; k < 3; ++k)
-      ++uses[std::minmax(mesh.triangle_vertices[3 * t + k], mesh.triangle_vertices[3 * t + (k + 1) % 3])];
+      edges.push_back(
+          std::minmax(mesh.triangle_vertices[3 * t + k], mesh.triangle_vertices[3 * t + (k + 1) % 3]));
   }
+  std::sort(edges.begin(), edges.end());
   std::vector<std::pair<glm::vec3, glm::vec3>> out;
-  for (const auto& [edge, count] : uses) {
-    if (count == 1) out.emplace_back(mesh.vertices[edge.first].position, mesh.vertices[edge.second].position);
+  for (std::size_t i = 0, end; i < edges.size(); i = end) {
+    for (end = i + 1; end < edges.size() && edges[end] == edges[i];) ++end;
+    if (end > i + 1) continue;
+    out.emplace_back(mesh.vertices[edges[i].first].position, mesh.vertices[edges[i].second].position);
   }
   return out;
 }
@@ -108,6 +111,13 @@ void Teaching::lookFrom(std::uint32_t patch, bool running) {
   looked_at_ = place;
   last_look_ = now;
   behind_ = false;
+}
+
+void Teaching::giveUpLooking() {
+  choices.hemicube = false;
+  if (choices.page == LecturePage::kShots) choices.lecture = false;
+  looks_.giveUp();
+  looked_at_ = {0, kNone};  // to be looked at again where it is opened again
 }
 
 bool Teaching::settled() const { return !looks_.pending() && !behind_; }

@@ -71,6 +71,10 @@ class Teaching {
   const HemicubeLook* look() const { return look_ && look_->patch == stands_on_ ? look_.get() : nullptr; }
   const std::vector<double>& shares() const { return shares_; }  ///< of look()
   std::optional<Error> problem() const { return looks_.problem(); }
+  /// HemicubeLooks::preparing.
+  std::optional<double> preparing() const { return looks_.preparing(); }
+  /// Closes the hemicube, and the lecture where that needs it.
+  void giveUpLooking();
   /// The cross as a texture, as chosen; null before the first look.
   const gl::Texture* cross();
 

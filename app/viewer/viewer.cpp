@@ -7,10 +7,12 @@
 
 #include "base/atomic_file.h"
 #include "base/clock.h"
+#include "base/text.h"
 #include "exit_codes.h"
 #include "export/materials.h"
 #include "viewer/actions/actions.h"
 #include "viewer/comparison.h"
+#include "viewer/file_list.h"
 #include "viewer/panels/panels.h"
 #include "viewer/panels/theme.h"
 #include "viewer/teaching.h"
@@ -49,7 +51,12 @@ Viewer::Viewer(ViewerSetup setup)
   if (!script_.empty()) hold_.emplace(session_);
   watching_ = setup_.watch;
   if (watching_ && !setup_.scene.empty()) watch_.opening(setup_.scene);
-  if (!setup_.scene.empty()) session_.open(setup_.scene, ui_.options, std::move(setup_.saved));
+  if (setup_.scene.empty()) return;
+  if (setup_.resume.empty()) {
+    session_.open(setup_.scene, ui_.options);
+  } else {
+    session_.resumeSaved(setup_.scene, ui_.options, setup_.resume, setup_.error_given);
+  }
 }
 
 Viewer::~Viewer() = default;
@@ -86,6 +93,7 @@ void Viewer::update(double now) {
   runScript(now);
   followLoads();
   followScreenshots(now);
+  if (ending()) session_.beginClosing();
   if (watch_.look(now)) input();
   followHint(now);
   keepMovedCamera(now);
@@ -96,7 +104,8 @@ void Viewer::update(double now) {
 void Viewer::takeState(double now) {
   const std::shared_ptr<const SessionState> latest = session_.latest();
   if (latest->version == state_->version) return;
-  if (latest->task_done != state_->task_done || latest->gathering != state_->gathering)
+  if (latest->task_done != state_->task_done || latest->gathering != state_->gathering ||
+      latest->completing != state_->completing)
     gui_frames_ = std::max(gui_frames_, 2);  // its window takes its size in the second
   const bool news = latest->phase != state_->phase || latest->problems != state_->problems;
   const bool another = latest->epoch != state_->epoch;
@@ -107,6 +116,7 @@ void Viewer::takeState(double now) {
     if (script_.empty()) exit_code_ = 0;
     if (setup_.title) setup_.title(state_->facts->scene_name + " \u2013 Unshot");
     forgetOldLight();
+    if (state_->resumed && opening_) noteResumed();
     if (state_->facts->scene_path != framed_scene_) {
       rememberCamera(*before);
       frame_wanted_ = camera_from_memory_ = true;
@@ -171,12 +181,13 @@ Rates Viewer::rates() const {
 void Viewer::perform(std::string_view action, const std::string& argument) {
   try {
     const Action& row = findAction(action);
+    if (ending() && action != "give-up" && action != "dismiss") return;  // it only ends what it has begun
     const std::string wrong = checkArgument(row, argument);
     if (!wrong.empty()) throw Error(ErrorKind::kUsage, wrong, {}, "H lists what can be done");
     row.run(*this, argument);
     followTeaching();
-  } catch (const Error& error) {
-    fail(error);
+  } catch (...) {
+    fail(presentError());
   }
   input();
 }
@@ -207,7 +218,7 @@ void Viewer::dismiss() {
     ui_.prompt.close();
   } else if (ui_.help) {
     ui_.help = false;
-  } else if (giveUp()) {
+  } else if (giveUp(true)) {
     return;
   } else if (sceneChanged()) {
     keepScene();
@@ -232,9 +243,31 @@ void Viewer::dismissNotices() {
 }
 
 void Viewer::open(const std::filesystem::path& scene) {
+  if (lowered(scene.extension().string()) == ".unshot") return resumeSaved(scene);
   if (watching_) watch_.opening(scene);
   session_.open(scene, ui_.options);
   opening_ = state_->epoch;
+}
+
+void Viewer::resumeSaved(const std::filesystem::path& file) {
+  if (!state_->facts) {
+    throw Error(ErrorKind::kUsage, "this is a saved solve: its scene has to be open", file.string(),
+                "to open the scene first, or unshot view SCENE.obj --resume " + file.string());
+  }
+  const std::filesystem::path& scene = state_->facts->scene_path;
+  if (watching_) watch_.opening(scene);
+  session_.resumeSaved(scene, ui_.options, file, false);
+  opening_ = state_->epoch;
+}
+
+/// What a solve goes on from decides on options, which the panel shows.
+void Viewer::noteResumed() {
+  ui_.options = state_->facts->options;
+  const ResumedFrom& from = *state_->resumed;
+  const std::string text = "goes on from " + from.path.string() + ": " + countedText(from.shots, "shot") +
+                           " in " + figureText(from.seconds) + " s";
+  std::cerr << "unshot: " << text << std::endl;
+  passingNotice(text);
 }
 
 void Viewer::giveUpLoading() {
@@ -351,10 +384,19 @@ void Viewer::finish() {
   takeState(wallSeconds());
 }
 
+/// For a solve that has to be saved somewhere.
+std::filesystem::path Viewer::rescueName() const {
+  try {
+    return newFileName(".unshot");
+  } catch (const Error&) {  // the working folder is gone
+    return newFileName(".unshot", std::filesystem::temp_directory_path());
+  }
+}
+
 Error Viewer::rescue(const Error& error) {
   screenshots_.drop();
   const bool lost = setup_.session.kept.path.empty() && state_->facts && state_->measures.shots > 0;
-  const std::filesystem::path path = lost ? newFileName(".unshot") : std::filesystem::path();
+  const std::filesystem::path path = lost ? rescueName() : std::filesystem::path();
   const std::uint64_t saves = state_->saves;
   if (lost) session_.save(path);
   finish();

@@ -47,7 +47,8 @@ struct ViewerSetup {
   gl::Context* display = nullptr;  ///< current on the main thread; outlives the viewer
   SessionSetup session;
   std::filesystem::path scene;
-  std::shared_ptr<SavedSolve> saved;           ///< of the scene, to go on from; null: none
+  std::filesystem::path resume;                ///< a saved solve of the scene, to go on from; empty: none
+  bool error_given = false;                    ///< by `options`: it holds, and not that of `resume`
   std::vector<std::filesystem::path> bundled;  ///< scenes that the panel offers
   SolveOptions options;
   DisplaySettings settings;
@@ -128,8 +129,9 @@ class Viewer {
   void key(int key, bool ctrl);
   /// Of the screen, for a GUI of the usual size: 1 is a font of 15 px.
   void setScreenScale(double scale);
-  /// Not before the screenshots that were asked for are written.
-  bool closing() const { return closing_ && screenshots_.empty(); }
+  /// Not before the screenshots that were asked for are written, and what is to be saved is: the window shows
+  /// how far that is, and it can be given up.
+  bool closing() const { return ending() && (session_.closed() || !mayStillSave()); }
   /// Ends the session, once nothing more is to be shown: waits for one step at most, and for what is still to
   /// be saved. Only exitCode() may be called afterwards.
   void finish();
@@ -168,6 +170,7 @@ class Viewer {
   Rates rates() const;
   double frameMilliseconds() const { return 1000 * frame_cost_; }
 
+  /// Or goes on from a saved solve of the present scene.
   void open(const std::filesystem::path& scene);
   /// The present scene as its files are now; the camera stays.
   void reload();
@@ -213,6 +216,7 @@ class Viewer {
   void forget();
   /// A picture over that of the scene (reference_picture.h). Both are read beside the window.
   void loadReferencePicture(const std::filesystem::path& file);
+  void giveUpReferencePicture();
   void forgetReferencePicture();
   /// Null where there is none, or where the display mode shows nothing to compare with it.
   const ReferencePicture* referencePicture() const;
@@ -266,10 +270,10 @@ class Viewer {
   /// What takes its time, of what is under way.
   std::vector<Task> tasks();
   void giveUp(const Task& task);
-  /// Gives up the first of them; whether there is one.
-  bool giveUp();
-  /// Closes what lies over the scene: the message, else the help, else gives up a task, else notices, else
-  /// what is picked.
+  /// Gives up the first of them, or of those that are `shown`; whether there is one.
+  bool giveUp(bool shown = false);
+  /// Closes what lies over the scene: the message, else the help, else gives up a task that is shown, else
+  /// notices, else what is picked.
   void dismiss();
   void close() { closing_ = true; }
 
@@ -298,6 +302,8 @@ class Viewer {
   void noteRates(double now);
   void takeMaterials();
   void noteSky();
+  void resumeSaved(const std::filesystem::path& file);
+  void noteResumed();
   void runScript(double now);
   void runScriptLines(double now);
   bool waitIsOver(const ScriptLine& line, double now);
@@ -337,11 +343,13 @@ class Viewer {
   void recallPanel();
   void rememberPanel();
   ReferencePicture::Look referenceLook() const;
+  double nextMeasure() const;
   void measureReference(double now);
   void followLoads();
+  void sendReferencePicture(double deadline);
   /// Whether some are read or written that were asked for.
   bool waitsForFiles() const {
-    return !screenshots_.empty() || reference_load_.underWay() || picture_load_.underWay();
+    return !screenshots_.empty() || reference_load_.underWay() || picture_load_.underWay() || coming_picture_;
   }
   bool drawScene(double now, double deadline);
   void paint(GLuint framebuffer, int width, int height);
@@ -351,7 +359,11 @@ class Viewer {
   void drawScreenshot(double deadline);
   void failScreenshot(const Error& error);
   void noteSaved(const SessionState& before);
-  std::filesystem::path newFileName(const std::string& ending) const;
+  bool ending() const { return closing_ && screenshots_.empty(); }
+  bool mayStillSave() const { return state_->saving || !setup_.session.kept.path.empty() || !upToDate(); }
+  std::filesystem::path newFileName(const std::string& ending,
+                                    const std::filesystem::path& folder = {}) const;
+  std::filesystem::path rescueName() const;
 
   ViewerSetup setup_;
   struct GuiContext {
@@ -402,7 +414,7 @@ class Viewer {
     glm::dvec3 point;
   };
   std::optional<ZoomTarget> zoom_target_;
-  std::shared_ptr<ReferencePicture> reference_picture_;
+  std::shared_ptr<ReferencePicture> reference_picture_, coming_picture_;  // shown, and on its way there
   FileLoad<ReferencePicture::Content> picture_load_;
   FileLoad<std::shared_ptr<const ReferenceLight>> reference_load_;
   double last_measured_ = 0;  // reference_picture_

@@ -73,7 +73,9 @@ void setCallbacks(GLFWwindow* window) {
   glfwSetWindowContentScaleCallback(window,
                                     [](GLFWwindow* w, float x, float) { viewerOf(w).setScreenScale(x); });
   glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
-    if (count > 0) viewerOf(w).perform(actionOfFile(paths[0]), paths[0]);
+    if (count <= 0) return;
+    const std::filesystem::path file = chosenFile({paths, static_cast<std::size_t>(count)});
+    viewerOf(w).perform(actionOfFile(file), file.string());
   });
 }
 
@@ -159,9 +161,9 @@ int runWindow(ViewerSetup setup, const WindowOptions& wanted) {
       viewer.setScreenScale(scale);
       try {
         runLoop(receiver, window);
-      } catch (const Error& error) {
+      } catch (...) {
         glfwHideWindow(window);
-        throw viewer.rescue(error);
+        throw viewer.rescue(presentError());
       }
       // The window goes at once; the solver may need a moment to end its step and to save.
       glfwHideWindow(window);

@@ -15,6 +15,7 @@ constexpr std::size_t kBuffer = std::size_t{1} << 20;
 // Reads as something else on a machine of another byte order.
 constexpr std::uint32_t kByteOrder = 0x01020304u;
 constexpr std::size_t kKindLength = 16;
+constexpr double kCheckingShare = 0.5;  // of the time that reading takes
 constexpr std::size_t kHeadLength = kKindLength + 2 * sizeof(std::uint32_t);
 
 std::array<char, kKindLength> kindBytes(std::string_view kind) {
@@ -76,8 +77,11 @@ void ArchiveWriter::finish() {
 }
 
 ArchiveReader::ArchiveReader(std::filesystem::path path, std::string_view kind, std::uint32_t version,
-                             std::string what)
-    : path_(std::move(path)), what_(std::move(what)) {
+                             std::string what, const CancelToken& cancel)
+    : path_(std::move(path)),
+      what_(std::move(what)),
+      checking_(cancel.part(0, kCheckingShare)),
+      reading_(cancel.part(kCheckingShare, 1)) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path_, error))
     throw Error(ErrorKind::kInput, "there is no such file", path_.string(), what_ + " of unshot");
@@ -113,6 +117,8 @@ void ArchiveReader::checkWhole() {
   file_.seekg(0);
   std::vector<char> piece(kBuffer);
   for (std::uint64_t left = covered; left > 0;) {
+    checking_.check();
+    checking_.report(1 - static_cast<double>(left) / static_cast<double>(covered));
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(left, piece.size()));
     if (!file_.read(piece.data(), static_cast<std::streamsize>(count))) damaged();
     XXH3_64bits_update(state.get(), piece.data(), count);
@@ -123,7 +129,7 @@ void ArchiveReader::checkWhole() {
       written != XXH3_64bits_digest(state.get()))
     damaged();
   file_.seekg(kHeadLength);
-  left_ = covered - kHeadLength;
+  left_ = all_ = covered - kHeadLength;
 }
 
 void ArchiveReader::damaged() const {
@@ -141,8 +147,16 @@ void ArchiveReader::itemSize(std::uint32_t expected) {
 
 void ArchiveReader::bytes(void* data, std::size_t count) {
   if (count > left_) damaged();
-  if (count > 0 && !file_.read(static_cast<char*>(data), static_cast<std::streamsize>(count))) damaged();
-  left_ -= count;
+  for (auto* to = static_cast<char*>(data); count > 0;) {
+    const std::size_t piece = std::min(count, kBuffer);
+    if (!file_.read(to, static_cast<std::streamsize>(piece))) damaged();
+    to += piece;
+    count -= piece;
+    left_ -= piece;
+    if (piece < kBuffer) continue;
+    reading_.check();
+    reading_.report(1 - static_cast<double>(left_) / static_cast<double>(all_));
+  }
 }
 
 }  // namespace unshot

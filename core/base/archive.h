@@ -19,6 +19,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/cancel.h"
+
 namespace unshot {
 
 class ArchiveWriter {
@@ -78,7 +80,9 @@ class ArchiveWriter {
 class ArchiveReader {
  public:
   /// Looks at all of the file first, and at what it is. `what` names the kind in messages: "a saved solve".
-  ArchiveReader(std::filesystem::path path, std::string_view kind, std::uint32_t version, std::string what);
+  /// What the token reports is about all of the file. Throws Cancelled, as later reading does.
+  ArchiveReader(std::filesystem::path path, std::string_view kind, std::uint32_t version, std::string what,
+                const CancelToken& cancel = {});
 
   /// As ArchiveWriter's: one function template that lists fields serves both.
   template <class... Fields>
@@ -125,7 +129,8 @@ class ArchiveReader {
   std::filesystem::path path_;
   std::string what_;
   std::ifstream file_;
-  std::uint64_t left_ = 0;  // bytes before the checksum that are not read yet
+  std::uint64_t left_ = 0, all_ = 0;  // bytes before the checksum: not read yet, and altogether
+  CancelToken checking_, reading_;
 };
 
 }  // namespace unshot

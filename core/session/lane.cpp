@@ -124,9 +124,18 @@ void Lane::edit(const std::vector<Material>& materials, const std::function<gl::
   learnFacts(facts_->options, facts_->load_seconds);
 }
 
-void Lane::completeBounces() {
+void Lane::completeBounces(bool wanted) {
   usable();
-  complete_bounces_ = true;
+  complete_bounces_ = wanted;
+  most_missing_ = 0;
+}
+
+/// How much of that is done; none where none of it is left.
+std::optional<double> Lane::completing() const {
+  if (!complete_bounces_ || broken() || !hasBounceWork()) return std::nullopt;
+  const std::size_t missing = solve_->bounceWait().columns;
+  if (missing == 0) return std::nullopt;
+  return 1 - static_cast<double>(missing) / static_cast<double>(std::max(most_missing_, missing));
 }
 
 void Lane::lookInto(const InsightWanted& wanted) {
@@ -225,6 +234,7 @@ void Lane::refreshInsight(bool at_once) {
 
 bool Lane::workOutBounces(double interval) {
   try {
+    if (complete_bounces_) most_missing_ = std::max(most_missing_, solve_->bounceWait().columns);
     if (!solve_->workOutBounces(complete_bounces_)) return false;
   } catch (...) {
     noteException();
@@ -301,6 +311,7 @@ LaneState Lane::state(bool resting, bool paused) const {
   state.kept_bytes = solve_->keptBytes();
   if (looking_on_) state.insight = looking_on_->shown();
   if (resting) state.gathering = gathering();
+  if (resting) state.completing = completing();
   state.drawn = solve_->drawn();
   state.stopped_by = broken_.value_or(solve_->stoppedBy());
   return state;

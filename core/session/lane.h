@@ -38,7 +38,7 @@ class Lane {
   void again();
   void edit(const std::vector<Material>& materials, const std::function<gl::Context&()>& gl,
             const CancelToken& cancel);
-  void completeBounces();
+  void completeBounces(bool wanted);
   /// What state() tells beside the snapshot from now on.
   void lookInto(const InsightWanted& wanted);
 
@@ -74,6 +74,7 @@ class Lane {
   void noteException() { note_(presentError()); }
   bool hasLight() const;
   bool hasBounceWork() const;
+  std::optional<double> completing() const;
   bool workOutBounces(double interval);
   bool sumRows();
   bool gather();
@@ -94,6 +95,8 @@ class Lane {
   double bound_seconds_ = 0, estimate_seconds_ = 0, last_estimate_seconds_ = 0;
   bool no_more_places_ = false;                              // the scene has none, or estimating failed
   bool complete_bounces_ = false, no_more_bounces_ = false;  // asked for; working them out failed
+
+  std::size_t most_missing_ = 0;  // columns, since they were asked for
 
   std::shared_ptr<const std::vector<std::uint32_t>> surface_lines_;
   std::shared_ptr<const SolveFacts> facts_;

@@ -17,6 +17,13 @@ constexpr std::size_t kReserve = std::size_t{32} << 20;
 // Between two states that tell how far a task is.
 constexpr double kTellSeconds = 0.1;
 
+/// Since when [wall time] something goes on, which it may do from now on; 0 where it does not.
+double sinceWhen(std::optional<double>& began, bool goes_on) {
+  if (!goes_on) began.reset();
+  if (goes_on && !began) began = wallSeconds();
+  return began.value_or(0);
+}
+
 }  // namespace
 
 bool isSuperseded(const Command& command, const Command& later) {
@@ -96,13 +103,20 @@ void LiveSolve::spareWork() {
 }
 
 void LiveSolve::perform(const command::Open& c) {
+  std::shared_ptr<SavedSolve> saved;
+  SolveOptions options = c.options;
+  if (!c.saved.empty()) {
+    announce("reading " + c.saved.filename().string());
+    saved = readSavedSolve(c.saved, loading());
+    if (!c.error_given) options.error = saved->error;
+  }
   announce("reading " + c.scene.filename().string());
   const double began = wallSeconds();
   Scene scene = readObj(c.scene, loading());
   begin({.scene = std::move(scene),
-         .options = c.options,
+         .options = options,
          .load_seconds = wallSeconds() - began,
-         .saved = c.saved});
+         .saved = std::move(saved)});
 }
 
 void LiveSolve::perform(const command::Restart& c) {
@@ -164,8 +178,8 @@ void LiveSolve::perform(const command::SetError& c) {
   forEachUsable([&](Lane& lane) { lane.setError(c.error); });
 }
 
-void LiveSolve::perform(const command::CompleteBounces&) {
-  forEachUsable([](Lane& lane) { lane.completeBounces(); });
+void LiveSolve::perform(const command::CompleteBounces& c) {
+  forEachUsable([&](Lane& lane) { lane.completeBounces(c.wanted); });
 }
 
 void LiveSolve::perform(const command::LookInto& c) {
@@ -175,6 +189,7 @@ void LiveSolve::perform(const command::LookInto& c) {
 
 void LiveSolve::perform(const command::ShootAgain&) {
   forEachUsable([](Lane& lane) { lane.again(); });
+  resumed_.reset();
   ++epoch_;
 }
 
@@ -224,7 +239,8 @@ void LiveSolve::saveKept() {
   if (!isKept()) return;
   try {
     lane_->checkUsable();
-    saver_.save(lane_->solve());
+    saving(setup_.kept.path, [&](const CancelToken& cancel) { saver_.save(lane_->solve(), cancel); });
+  } catch (const Cancelled&) {
   } catch (...) {
     noteException();
   }
@@ -289,6 +305,8 @@ void LiveSolve::begin(Start start) {
     asked = start.saved->options(asked);
     asked.mesh.reset();  // a restart cuts it as it is asked to then
   }
+  std::optional<ResumedFrom> resumed;
+  if (start.saved) resumed = {start.saved->path, start.saved->shots, start.saved->seconds};
   std::unique_ptr<Lane> fresh, rival;
   if (!start.rival_mode) {
     fresh = makeLane(std::move(start.scene), own, asked, start.load_seconds, std::move(start.saved));
@@ -305,6 +323,7 @@ void LiveSolve::begin(Start start) {
   lane_ = std::move(fresh);
   lane_->lookInto(insight_);
   rival_ = std::move(rival);
+  resumed_ = std::move(resumed);
   reserve_.refill();
   paused_ = false;
   steps_left_ = 0;
@@ -387,7 +406,10 @@ void LiveSolve::publish() {
   state->task = task_;
   if (!task_.empty()) state->task_done = task_done_;
   state->task_began = task_began_;
+  state->gathering_began = sinceWhen(gathering_began_, state->gathering.has_value());
+  state->completing_began = sinceWhen(completing_began_, state->completing.has_value());
   state->saving = saving_;
+  state->resumed = resumed_;
   state->problems = problems_;
   state->problem = problem_;
   state->saves = saves_;

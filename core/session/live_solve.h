@@ -24,7 +24,8 @@ namespace command {
 struct Open {
   std::filesystem::path scene;
   SolveOptions options;
-  std::shared_ptr<SavedSolve> saved;
+  std::filesystem::path saved;  // to go on from; empty: from nothing
+  bool error_given = false;     // by `options`, not by that
 };
 struct Restart {
   SolveOptions options;
@@ -44,7 +45,9 @@ struct SetMode {
 struct SetError {
   double error;
 };
-struct CompleteBounces {};
+struct CompleteBounces {
+  bool wanted = true;
+};
 struct LookInto {
   InsightWanted wanted;
 };
@@ -168,9 +171,10 @@ class LiveSolve {
   bool paused_ = false;
   std::uint64_t steps_left_ = 0;  // before a pause; 0: no pause is due
   InsightWanted insight_;
-  std::string task_;                       // not empty while loading or saving
-  bool saving_ = false;                    // it is saving
-  double task_began_ = 0, last_told_ = 0;  // wall time
+  std::string task_;                                          // not empty while loading or saving
+  bool saving_ = false;                                       // it is saving
+  double task_began_ = 0, last_told_ = 0;                     // wall time
+  std::optional<double> gathering_began_, completing_began_;  // wall time
   std::optional<double> task_done_;
   const CancelToken::Told told_ = [this](double done) { tell(done); };
   bool abandoned_ = false;  // what was to be loaded last was given up
@@ -180,6 +184,7 @@ class LiveSolve {
   std::optional<Error> problem_;
   std::uint64_t saves_ = 0;
   std::filesystem::path saved_as_;
+  std::optional<ResumedFrom> resumed_;
 };
 
 }  // namespace unshot

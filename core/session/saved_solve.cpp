@@ -52,15 +52,16 @@ SolveOptions SavedSolve::options(SolveOptions options) const {
   return options;
 }
 
-std::shared_ptr<SavedSolve> readSavedSolve(const std::filesystem::path& path) {
+std::shared_ptr<SavedSolve> readSavedSolve(const std::filesystem::path& path, const CancelToken& cancel) {
   auto saved = std::make_shared<SavedSolve>();
-  ArchiveReader archive(path, kKind, kVersion, "a saved solve");
+  ArchiveReader archive(path, kKind, kVersion, "a saved solve", cancel);
   saved->path = path;
   transferHead(archive, *saved);
   saved->mesh = readMesh(archive);
   transferValues(archive, saved->values);
   archive.fields(saved->local_irradiance);
   archive.list(saved->columns, [&](auto& column) {
+    cancel.check();
     archive.fields(column.first);
     transferColumn(archive, column.second);
   });

@@ -55,7 +55,7 @@ struct SavedSolve {
 };
 
 /// What Solve::save has written. Throws Error (kInput: no such file, not a saved solve, of another version,
-/// damaged).
-std::shared_ptr<SavedSolve> readSavedSolve(const std::filesystem::path& path);
+/// damaged), Cancelled.
+std::shared_ptr<SavedSolve> readSavedSolve(const std::filesystem::path& path, const CancelToken& cancel = {});
 
 }  // namespace unshot

@@ -22,7 +22,7 @@ constexpr std::chrono::milliseconds kBeforeAnotherTry{50};
 struct Session::Impl {
   const SessionSetup setup;
   std::atomic<bool> closing{false}, given_up{false};  // given_up: what is being loaded
-  std::atomic<bool> save_given_up{false};
+  std::atomic<bool> save_given_up{false}, closed{false};
   std::atomic<double> interval{PublishPace::kLeastInterval};
 
   mutable std::mutex mutex;  // of what follows
@@ -36,16 +36,23 @@ struct Session::Impl {
   std::thread thread;  // last: it uses all of the above
 
   explicit Impl(SessionSetup setup_in) : setup(std::move(setup_in)) {
-    thread = std::thread([this] { run(); });
+    thread = std::thread([this] {
+      run();
+      closed = true;
+      if (setup.wake) setup.wake();
+    });
   }
   ~Impl() { close(); }
 
-  void close() {
+  void beginClosing() {
     {
       const std::lock_guard lock(mutex);
       closing = given_up = true;
     }
     arrived.notify_all();
+  }
+  void close() {
+    beginClosing();
     if (thread.joinable()) thread.join();
   }
 
@@ -148,12 +155,21 @@ Session::~Session() = default;
 
 void Session::close() { impl_->close(); }
 
+void Session::beginClosing() { impl_->beginClosing(); }
+
+bool Session::closed() const { return impl_->closed; }
+
 Session::Hold::Hold(Session& session) : session_(session) { session_.impl_->hold(1); }
 
 Session::Hold::~Hold() { session_.impl_->hold(-1); }
 
-void Session::open(std::filesystem::path scene, SolveOptions options, std::shared_ptr<SavedSolve> saved) {
-  impl_->send(command::Open{std::move(scene), std::move(options), std::move(saved)});
+void Session::open(std::filesystem::path scene, SolveOptions options) {
+  impl_->send(command::Open{std::move(scene), std::move(options), {}, false});
+}
+
+void Session::resumeSaved(std::filesystem::path scene, SolveOptions options, std::filesystem::path saved,
+                          bool error_given) {
+  impl_->send(command::Open{std::move(scene), std::move(options), std::move(saved), error_given});
 }
 
 void Session::giveUpLoading() {
@@ -180,7 +196,9 @@ void Session::setMode(std::string key) { impl_->send(command::SetMode{std::move(
 
 void Session::setError(double error) { impl_->send(command::SetError{error}); }
 
-void Session::completeBounces() { impl_->send(command::CompleteBounces{}); }
+void Session::completeBounces() { impl_->send(command::CompleteBounces{true}); }
+
+void Session::giveUpBounces() { impl_->send(command::CompleteBounces{false}); }
 
 void Session::lookInto(const InsightWanted& wanted) { impl_->send(command::LookInto{wanted}); }
 

@@ -56,6 +56,8 @@ struct LaneState {
   glm::dvec3 radius_lower{0.0}, radius_upper{kNoBound};
   /// How much of the matrix that is looked into is gathered, from 0 to 1; none where none is being gathered.
   std::optional<double> gathering;
+  /// How much of what completeBounces() asked for is computed, likewise.
+  std::optional<double> completing;
   bool bounces_under_way = false;  ///< light by bounces is being worked out, or will be once the solve rests
   bool spare_work = false;     ///< the solve rests, and its estimates or light by bounces still get better
   double progress = 0;         ///< Solve::progress
@@ -66,6 +68,13 @@ struct LaneState {
   SessionPhase own_phase = SessionPhase::kEmpty;  ///< of this solve by itself
 };
 
+/// What a solve went on from.
+struct ResumedFrom {
+  std::filesystem::path path;
+  std::uint64_t shots = 0;
+  double seconds = 0;  ///< of solving, until then
+};
+
 /// One moment of the session, with the state of its solve.
 struct SessionState : LaneState {
   std::uint64_t version = 0;                  ///< one more at each publication
@@ -73,14 +82,16 @@ struct SessionState : LaneState {
   std::uint64_t commands = 0;                 ///< how many of the commands sent are carried out
   SessionPhase phase = SessionPhase::kEmpty;  ///< in a race kRunning or kPaused until both have ended
   std::string task;  ///< while loading or saving: what is being done, such as "reading room.obj"
-  std::optional<double> task_done;  ///< how much of it, from 0 to 1, where that is known
-  double task_began = 0;            ///< wallSeconds() then
-  bool saving = false;              ///< it is saving, which leaves the phase as it is
-  std::optional<LaneState> rival;   ///< in a race: the other solve
-  std::uint64_t problems = 0;       ///< how many commands or solves have failed so far
-  std::optional<Error> problem;     ///< the last failure
-  std::uint64_t saves = 0;          ///< how often save() has written a file
-  std::filesystem::path saved_as;   ///< the last of them
+  std::optional<double> task_done;                   ///< how much of it, from 0 to 1, where that is known
+  double task_began = 0;                             ///< wallSeconds() then
+  double gathering_began = 0, completing_began = 0;  ///< the same, of LaneState::gathering and completing
+  bool saving = false;                               ///< it is saving, which leaves the phase as it is
+  std::optional<LaneState> rival;                    ///< in a race: the other solve
+  std::optional<ResumedFrom> resumed;                ///< of the present solve, where it was saved before
+  std::uint64_t problems = 0;                        ///< how many commands or solves have failed so far
+  std::optional<Error> problem;                      ///< the last failure
+  std::uint64_t saves = 0;                           ///< how often save() has written a file
+  std::filesystem::path saved_as;                    ///< the last of them
 
   /// Whether there are more news to wait for while the session rests.
   bool spareWork() const { return spare_work || (rival && rival->spare_work); }
@@ -118,6 +129,11 @@ class Session {
   /// step at most, and for what is still to be saved; loading is given up. Nothing but latest() and sent()
   /// may be called afterwards.
   void close();
+  /// Begins with that, and does not wait: commands that are sent from now on are not carried out, but
+  /// giveUpSaving() is heard.
+  void beginClosing();
+  /// Whether the thread has ended. SessionSetup::wake is called once it has.
+  bool closed() const;
 
   /// While one lives no step is taken, though commands are carried out: what is sent meanwhile happens
   /// without a shot in between. A step under way ends.
@@ -139,8 +155,11 @@ class Session {
   /// Reads a scene and solves it. The scene before goes on being shown, and is gone only when this one is
   /// ready. One that is still being loaded is given up for this one, and never shown. The new solve runs from
   /// the first moment; a pause sent after this command finds it before its first shot.
-  /// Where `saved` is given it goes on from there, as Solve::Solve describes it; it is used up.
-  void open(std::filesystem::path scene, SolveOptions options, std::shared_ptr<SavedSolve> saved = nullptr);
+  void open(std::filesystem::path scene, SolveOptions options);
+  /// The same, but the solve goes on from one that was saved, as Solve::Solve describes it. The file's error
+  /// stands in the place of that of `options` unless that is `error_given`.
+  void resumeSaved(std::filesystem::path scene, SolveOptions options, std::filesystem::path saved,
+                   bool error_given);
   /// Gives up what is being loaded now: what was before stays, and goes on. Commands that wait are carried
   /// out.
   void giveUpLoading();
@@ -168,6 +187,8 @@ class Session {
   /// While the present solve rests: computes the form factors that light by bounces still waits for
   /// (Snapshot::bounce_wait). Where none are missing it needs no asking.
   void completeBounces();
+  /// Leaves the rest of them missing.
+  void giveUpBounces();
   /// What LaneState::insight is to hold from now on (session/insight.h), of the present solve and of those
   /// that come. The column of a patch that is not at hand is computed for it.
   void lookInto(const InsightWanted& wanted);

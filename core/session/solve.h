@@ -133,6 +133,8 @@ class Solve {
   /// clocks rest. Returns whether anything is new.
   bool workOutBounces(bool compute);
   bool hasBouncesToWorkOut(bool compute) const;
+  /// What light by bounces still waits for.
+  BounceWait bounceWait() const;
   /// Sums the rows of K for snapshots, where all of it is at hand. Returns whether that is new.
   bool sumRows();
   double errorSeconds() const;  ///< wall time that bounds and estimates took so far

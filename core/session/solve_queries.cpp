@@ -52,6 +52,8 @@ std::vector<glm::dvec3> Solve::patchRadiosity() const {
 }
 
 bool Solve::sumRows() { return impl_->shared.sumRows(*impl_->mesh, *impl_->transport, *impl_->state); }
+BounceWait Solve::bounceWait() const { return impl_->bounces_of_light->wait(); }
+
 bool Solve::hasBouncesToWorkOut(bool compute) const { return impl_->bounces_of_light->hasWork(compute); }
 std::size_t Solve::places() const { return impl_->budget->places(); }
 double Solve::errorSeconds() const { return impl_->budget->seconds(); }

@@ -1,5 +1,6 @@
 // Screenshots of a large scene: the window answers while they are drawn, and they are whole or not there.
 #include <gtest/gtest.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -122,7 +123,7 @@ TEST_F(Captures, ThatAreGivenUpLeaveNoFile) {
     const auto far = [&] { return live_->tasks().front().done.value() >= share; };
     ASSERT_FALSE(live_->tasks().empty());
     ASSERT_TRUE(live_.until(far));
-    live_->perform("dismiss");
+    live_->perform("give-up");
     ASSERT_TRUE(live_.until([&] { return live_->scriptDone(); }));
     EXPECT_EQ(folder_.names(), before);
     EXPECT_FALSE(live_->error());
@@ -131,6 +132,62 @@ TEST_F(Captures, ThatAreGivenUpLeaveNoFile) {
   live_->perform("screenshot", path);
   ASSERT_TRUE(live_.until([&] { return std::filesystem::exists(path); }));
   EXPECT_TRUE(showsSomething(readImage(path)));
+}
+
+bool isShown(const char* window) {
+  const ImGuiWindow* found = ImGui::FindWindowByName(window);
+  return found && found->Active;
+}
+
+// A notice that comes while the window poses is seen, and yet is in no picture.
+TEST_F(Captures, LeaveNoticesOutOfThePictureAndNotOutOfTheWindow) {
+  const std::string without = folder_ / "without.png", with = folder_ / "with.png";
+  live_->perform("panel", "off");  // it lists messages
+  live_->perform("screenshot", without);
+  ASSERT_TRUE(live_.until([&] { return live_->scriptDone(); }));
+  live_->perform("dismiss-notices");
+  live_->perform("screenshot", with);
+  live_->notice("something was written");
+  live_.draw();
+  EXPECT_TRUE(isShown("notice"));
+  int left_out = 0, painted = 0;
+  ASSERT_TRUE(live_.until([&] {
+    left_out += !isShown("notice") && painted != live_.painted() && !live_->scriptDone();
+    painted = live_.painted();
+    return live_->scriptDone();
+  }));
+  EXPECT_EQ(left_out, 0) << "frames on the screen without it";
+  EXPECT_EQ(lightDifference(readImage(with), readImage(without)), 0);
+}
+
+// Esc takes what is seen: a screenshot that has only begun is not.
+TEST_F(Captures, ThatHaveOnlyBegunAreNotGivenUpByEsc) {
+  for (const char* place : {"0.5,0.5", "0.5,0.6", "0.5,0.7", "0.5,0.8", "0.5,0.9"}) {
+    if (!live_->picking().picked()) live_->perform("pick", place);
+    live_.draw();
+  }
+  ASSERT_TRUE(live_->picking().picked());
+  const std::string path = folder_ / "kept.png";
+  live_->perform("screenshot", path);
+  live_->perform("dismiss");
+  EXPECT_FALSE(live_->picking().picked());
+  ASSERT_TRUE(live_.until([&] { return live_->scriptDone(); }));
+  EXPECT_TRUE(std::filesystem::exists(path));
+}
+
+TEST_F(Captures, WithoutAWorkingFolderAreSaid) {
+  const std::filesystem::path before = std::filesystem::current_path();
+  {
+    const TempFolder gone;
+    std::filesystem::current_path(gone.path());
+  }
+  for (const char* action : {"screenshot", "save-solve", "save-materials"}) {
+    live_->perform(action);
+    ASSERT_TRUE(live_->error()) << action;
+    EXPECT_NE(std::string(live_->error()->what()).find("the working folder is gone"), std::string::npos);
+    live_->perform("dismiss");
+  }
+  std::filesystem::current_path(before);
 }
 
 // Asked for before the window closes.

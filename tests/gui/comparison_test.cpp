@@ -93,6 +93,43 @@ TEST(Comparison, WhatIsMissingIsSaidAndComputedOnlyWhenAsked) {
   EXPECT_THAT(bounceText(power, 3), HasSubstr("Bounce 3: "));
 }
 
+TEST(Comparison, MoreBouncesThanAreKnownAreSaid) {
+  LiveViewer live(cornellBox("wait converged\nbounces 1\n"));
+  ASSERT_TRUE(live.until([&] {
+    const auto& snapshot = live->state().snapshot;
+    return live->scriptDone() && snapshot && snapshot->bounce_light && !live->state().bounces_under_way;
+  }));
+  const std::string known = std::to_string(shown(live).bounce_light->received.size());
+  ViewOptions view;
+  view.light = {true, 100000, true};
+  EXPECT_THAT(differenceTitle(live->state(), view),
+              testing::StartsWith("bounce " + known + " alone; bounce 100,000 is not known "));
+  view.light.alone = false;
+  EXPECT_THAT(differenceTitle(live->state(), view),
+              testing::StartsWith("up to " + known + " bounces; more are not known "));
+}
+
+TEST(Comparison, ComputingWhatIsMissingCanBeGivenUp) {
+  LiveViewer::Options options = cornellBox();
+  options.solve.elements = 3000;
+  LiveViewer live(options);
+  ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
+  ASSERT_TRUE(live.until([&] { return live->nextFrame(0) > 1e30; }));
+  const std::size_t missing = shown(live).bounce_wait.columns;
+  live->perform("complete-bounces");
+  const auto computes = [&] {
+    const std::vector<Task> tasks = live->tasks();
+    return !tasks.empty() && tasks.front().text.starts_with("computing") && *tasks.front().done > 0;
+  };
+  ASSERT_TRUE(live.until(computes));
+  EXPECT_LT(*live->tasks().front().done, 1);
+  live->perform("give-up");
+  ASSERT_TRUE(live.until([&] { return live->tasks().empty() && live->nextFrame(0) > 1e30; }));
+  EXPECT_FALSE(live->state().bounces_under_way);
+  EXPECT_GT(shown(live).bounce_wait.columns, 0u);
+  EXPECT_LT(shown(live).bounce_wait.columns, missing) << "what was computed is lost";
+}
+
 TEST(Comparison, ASolutionFromAFileIsComparedOnAnyMesh) {
   const TempFolder folder;
   LiveViewer live(boxToCompare());

@@ -3,12 +3,15 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <set>
 
+#include "base/clock.h"
 #include "formfactor/hemicube_view.h"
+#include "gui/support/gui_layout.h"
 #include "gui/support/program_pictures.h"
 #include "support/assets.h"
 #include "support/live_viewer.h"
@@ -225,6 +228,91 @@ TEST(Lecture, StepIsDisabledWhereNothingIsToBeShot) {
   ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
   EXPECT_FALSE(live->solveGoesOn());
   EXPECT_FALSE(firstButtonIsEnabled(live));
+}
+
+TEST(Lecture, GatheringSaysHowFarItIsAndCanBeGivenUp) {
+  LiveViewer::Options options = cornellBox("pause on\nstep 3000\nwait shots 3000\n");
+  options.solve.elements = 30000;
+  options.solve.form_factors = "rays";
+  options.solve.error = 1e-6;
+  LiveViewer live(options);
+  ASSERT_TRUE(finished(live));
+  double asked = 0;
+  std::vector<double> told;
+  const auto gathering = [&] {
+    for (const Task& task : live->tasks()) {
+      if (task.text != "gathering M") continue;
+      EXPECT_GE(task.since, asked) << "as if it had begun long ago";
+      told.push_back(task.done.value());
+    }
+    return !told.empty();
+  };
+  asked = wallSeconds();
+  live->perform("lecture-page", "matrix");
+  ASSERT_TRUE(live.until(gathering));
+  live->perform("give-up");
+  EXPECT_FALSE(live->teaching().choices.lecture);
+  ASSERT_TRUE(live.until([&] { return live->tasks().empty() && live->upToDate(); }));
+  EXPECT_FALSE(live->state().gathering);
+  told.clear();
+  asked = wallSeconds();
+  live->perform("lecture-page", "matrix");
+  ASSERT_TRUE(live.until([&] {
+    gathering();
+    const Insight* insight = live->teaching().insight();
+    return insight && insight->matrix && !live->state().gathering && live->upToDate();
+  }));
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+}
+
+// Nothing is gathered of it, and nothing is being gathered.
+TEST(Lecture, OfASceneWithoutLightSaysSo) {
+  LiveViewer live(cornellBox("wait converged\nlight light off\nlecture-page matrix\n"));
+  ASSERT_TRUE(finished(live));
+  ASSERT_TRUE(live.until([&] { return live->state().stopped_by == "no light" && live->upToDate(); }));
+  const auto page = [&] {
+    live->input();
+    live.draw();
+    live.draw();
+    std::string text;
+    for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+      if (!window->Active || !std::string(window->Name).starts_with("lecture/page")) continue;
+      for (const testing_support::Letter& letter :
+           testing_support::Letters(*ImGui::GetIO().Fonts).of(*window->DrawList))
+        text += letter.text;
+    }
+    return text;
+  };
+  // What was shot before is still known; nothing is of a solve that is dark from the beginning.
+  live->perform("sky", "0,0,0");
+  ASSERT_TRUE(live.until([&] {
+    return live->state().stopped_by == "no light" && live->upToDate() && live->state().measures.shots == 0;
+  }));
+  EXPECT_NE(page().find("Nothingofthissceneemitslight"), std::string::npos) << page();
+}
+
+TEST(HemicubeLooks, ThatGetReadyCanBeGivenUp) {
+  LiveViewer::Options options = cornellBox("pause on\n");
+  options.solve.elements = 100000;
+  LiveViewer live(options);
+  ASSERT_TRUE(live.until([&] { return live->state().snapshot != nullptr; }));
+  HemicubeLooks looks(nullptr);
+  const double asked = wallSeconds();
+  looks.want(live->state().snapshot->mesh, 0);
+  while (looks.pending() && !looks.preparing()) {
+  }
+  ASSERT_TRUE(looks.preparing());
+  EXPECT_GE(*looks.preparing(), asked);
+  looks.giveUp();
+  while (looks.pending()) {
+  }
+  EXPECT_EQ(looks.latest(), nullptr);
+  EXPECT_FALSE(looks.problem());
+  EXPECT_FALSE(looks.preparing());
+  looks.want(live->state().snapshot->mesh, 0);
+  while (looks.pending()) {
+  }
+  EXPECT_NE(looks.latest(), nullptr);
 }
 
 TEST(Lecture, PicturesOfAPatchAndOfAShotShowSomething) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/atomic_file.h"
+#include "base/clock.h"
 #include "export/ply.h"
 #include "scene/obj_reader.h"
 #include "session/saved_solve.h"
@@ -101,7 +102,9 @@ TEST_F(LongTasks, ALookForAViewEndsWithTheBestSoFar) {
     const std::vector<Task> tasks = viewer().tasks();
     return !tasks.empty() && tasks.front().text.starts_with("looking");
   };
-  ASSERT_TRUE(live().until([&] { return looks() && *viewer().tasks().front().done > 0; }));
+  ASSERT_TRUE(live().until([&] {
+    return looks() && *viewer().tasks().front().done > 0 && viewer().tasks().front().shown(wallSeconds());
+  }));
   EXPECT_LT(*viewer().tasks().front().done, 1);
   viewer().perform("dismiss");
   ASSERT_TRUE(live().until([&] { return !looks(); }));

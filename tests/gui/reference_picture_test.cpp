@@ -2,17 +2,31 @@
 #include "viewer/reference_picture.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <array>
+#include <cstdio>
+#include <ctime>
+#include <utility>
 
 #include "export/image_files.h"
 #include "report/difference.h"
 #include "support/live_viewer.h"
+#include "support/sanitized.h"
 #include "support/temp_folder.h"
+#include "viewer/mip_levels.h"
 
 namespace unshot {
 namespace {
 
 using testing_support::LiveViewer;
 using testing_support::TempFolder;
+
+double threadSeconds() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 /// The box, solved, with two pictures of it at hand: with all light and with direct light alone.
 class ReferencePictures : public testing::Test {
@@ -138,6 +152,121 @@ TEST_F(ReferencePictures, WhatIsNoPictureIsRefused) {
   viewer_->perform("display", "radiosity");
   viewer_->perform("forget-picture");
   EXPECT_FALSE(viewer_->referencePicture());
+}
+
+/// Whether the driver is to answer that a texture of light finds no room.
+bool no_room = false, asked_for_room = false;
+decltype(gl::Functions::TexImage2D) real_tex_image = nullptr;
+
+TEST_F(ReferencePictures, ThatTheDriverHasNoRoomForAreSaid) {
+  auto& fn = const_cast<gl::Functions&>(viewer_.fn());
+  real_tex_image = fn.TexImage2D;
+  fn.TexImage2D = [](GLenum target, GLint level, GLint format, GLsizei w, GLsizei h, GLint border,
+                     GLenum given, GLenum type, const void* pixels) {
+    asked_for_room = asked_for_room || format == GL_RGB32F;
+    real_tex_image(target, level, format, w, h, border, given, type, pixels);
+  };
+  fn.GetError = []() -> GLenum {
+    return no_room && std::exchange(asked_for_room, false) ? GL_OUT_OF_MEMORY : GL_NO_ERROR;
+  };
+  no_room = true;
+  viewer_.performAndWait("reference-picture", all_);
+  no_room = false;
+  ASSERT_TRUE(viewer_->error());
+  EXPECT_NE(std::string(viewer_->error()->what()).find("memory"), std::string::npos)
+      << viewer_->error()->what();
+  EXPECT_FALSE(viewer_->referencePicture());
+  look();  // the window goes on
+  viewer_->perform("dismiss");
+  viewer_.performAndWait("reference-picture", all_);
+  EXPECT_TRUE(viewer_->referencePicture());
+}
+
+// Its head promises a thousand million pixels.
+TEST_F(ReferencePictures, ThatFindNoMemoryAreSaid) {
+  if (testing_support::kSanitized) GTEST_SKIP() << "a sanitizer takes terabytes of addresses";
+  std::string bytes = pngBytes({32768, 1, std::vector<std::uint8_t>(3 * 32768)});
+  bytes[22] = '\x80';  // the height
+  bytes[23] = '\0';
+  const std::string file = folder_.write("large.png", bytes);
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_AS, &before), 0);
+  const rlimit less{std::size_t{8} << 30, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_AS, &less), 0);
+  viewer_.performAndWait("reference-picture", file);
+  ASSERT_EQ(::setrlimit(RLIMIT_AS, &before), 0);
+  ASSERT_TRUE(viewer_->error());
+  EXPECT_FALSE(viewer_->referencePicture());
+  look();
+}
+
+TEST_F(ReferencePictures, LargeOnesComeInPiecesAndCanBeGivenUp) {
+  Image8 large{3000, 2001, {}};
+  for (int k = 0; k < 3 * large.width * large.height; ++k)
+    large.rgb.push_back(static_cast<std::uint8_t>(k * 2654435761u >> 24));
+  writePng(folder_ / "large.png", large);
+  ASSERT_TRUE(viewer_.until([&] { return viewer_->tasks().empty(); }));
+  for (const double share : {0.0, 0.3, 0.85}) {
+    viewer_->perform("reference-picture", folder_ / "large.png");
+    ASSERT_EQ(viewer_->tasks().at(0).text, "reading large.png");
+    double last = 0;
+    ASSERT_TRUE(viewer_.until([&] {
+      const std::vector<Task> tasks = viewer_->tasks();
+      if (tasks.empty() || !tasks.front().done) return false;
+      EXPECT_GE(*tasks.front().done, last);
+      last = *tasks.front().done;
+      return last > share;
+    })) << share;
+    viewer_->perform("give-up");
+    EXPECT_TRUE(viewer_->tasks().empty());
+    EXPECT_TRUE(viewer_->scriptDone());
+    EXPECT_FALSE(viewer_->referencePicture());
+  }
+  // The turn that makes room for it is the longest.
+  viewer_->perform("reference-picture", folder_ / "large.png");
+  double longest = 0;
+  ASSERT_TRUE(viewer_.until([&] {
+    const double began = threadSeconds();
+    viewer_.pump();
+    longest = std::max(longest, threadSeconds() - began);
+    return viewer_->scriptDone();
+  }));
+  EXPECT_TRUE(viewer_->referencePicture());
+  std::printf("[ MEASURED ] a picture of 6 million pixels: the longest turn took %.0f ms\n", 1e3 * longest);
+}
+
+TEST_F(ReferencePictures, AreNotComparedWhileTheCameraMoves) {
+  viewer_.performAndWait("reference-picture", direct_);
+  look();
+  const double still = error();
+  for (int k = 0; k < 5; ++k) {
+    ImGui::GetIO().MousePos = {200.0f + 9.0f * static_cast<float>(k), 50};
+    ImGui::GetIO().MouseDown[1] = true;
+    viewer_->input();
+    look(1);
+    EXPECT_EQ(error(), still);
+  }
+  ImGui::GetIO().MouseDown[1] = false;
+  viewer_->input();
+  EXPECT_TRUE(viewer_.until([&] { return error() != still; }, 20)) << "nor after it";
+}
+
+TEST(MipLevels, AreMeansOverAreas) {
+  ImageF image{7, 5, {}};
+  std::array<double, 3> mean{};
+  for (int k = 0; k < 7 * 5; ++k) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      image.rgb.push_back(static_cast<float>((k * 7 + static_cast<int>(c) * 3) % 11));
+      mean[c] += static_cast<double>(image.rgb.back()) / 35;
+    }
+  }
+  const std::vector<ImageF> levels = mipLevels(image);
+  ASSERT_EQ(levels.size(), 3u);
+  EXPECT_EQ(levels[0].rgb, image.rgb);
+  EXPECT_EQ(std::pair(levels[1].width, levels[1].height), std::pair(3, 2));
+  EXPECT_EQ(std::pair(levels[2].width, levels[2].height), std::pair(1, 1));
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(levels[2].rgb[c], mean[c], 1e-5);
+  EXPECT_EQ(mipLevels({1, 1, {1, 2, 3}}).size(), 1u);
 }
 
 // Costs nothing where it is closed.

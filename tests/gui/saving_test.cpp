@@ -1,5 +1,12 @@
 // Solves saved in the viewer, and gone on from in the viewer and without it.
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
 
 #include "gui/support/program_pictures.h"
 #include "gui/support/screen.h"
@@ -169,6 +176,103 @@ TEST_F(Saving, TheStateSaysWhereItWent) {
   EXPECT_EQ(live->state().saved_as, folder_ / "s.unshot");
   live->finish();
   EXPECT_EQ(live->exitCode(), 0);
+}
+
+/// A pipe whose reader takes its time, so that a save does.
+class SlowFile {
+ public:
+  explicit SlowFile(std::string path) : path_(std::move(path)) {
+    EXPECT_EQ(::mkfifo(path_.c_str(), 0600), 0);
+    reader_ = std::jthread([this] {
+      const int file = ::open(path_.c_str(), O_RDONLY);
+      std::vector<char> bytes(1 << 16);
+      for (ssize_t count; (count = ::read(file, bytes.data(), bytes.size())) > 0;) {
+        read_ += static_cast<std::size_t>(count);
+        std::this_thread::sleep_for(std::chrono::milliseconds(hurries ? 0 : 20));
+      }
+      ::close(file);
+    });
+  }
+  std::atomic<bool> hurries{false};
+  const std::string& path() const { return path_; }
+  std::size_t read() const { return read_; }
+
+ private:
+  std::string path_;
+  std::atomic<std::size_t> read_{0};
+  std::jthread reader_;
+};
+
+/// A solve that is kept, in a window that was asked to close.
+class ClosingWhileItSaves : public Saving {
+ protected:
+  ClosingWhileItSaves() : file_(folder_ / "kept") {
+    LiveViewer::Options options;
+    options.scene = folder_ / "room.obj";
+    options.solve.elements = 5000;
+    options.solve.error = 1e-9;
+    options.kept = {file_.path(), 1e9, options.scene};
+    live_.emplace(options);
+    EXPECT_TRUE(live_->until([&] { return (*live_)->state().measures.shots > 50; }));
+    (*live_)->close();
+    EXPECT_TRUE(live_->until([&] { return saves() && *(*live_)->tasks().front().done > 0; }));
+    EXPECT_FALSE((*live_)->closing());
+  }
+  bool saves() {
+    const std::vector<Task> tasks = (*live_)->tasks();
+    return !tasks.empty() && tasks.front().text == "saving kept";
+  }
+  bool closes() {
+    return live_->until([&] { return (*live_)->closing(); }, 60);
+  }
+
+  SlowFile file_;
+  std::optional<LiveViewer> live_;
+};
+
+TEST_F(ClosingWhileItSaves, AWindowStaysUntilItIsSaved) {
+  (*live_)->close();  // once more
+  live_->draw();
+  EXPECT_FALSE((*live_)->closing());
+  (*live_)->perform("restart");  // it does nothing else any more
+  file_.hurries = true;
+  ASSERT_TRUE(closes());
+  (*live_)->finish();
+  EXPECT_EQ((*live_)->exitCode(), 0);
+  EXPECT_FALSE((*live_)->error());
+  EXPECT_GT(file_.read(), 100'000u);
+}
+
+TEST_F(ClosingWhileItSaves, TheSaveCanBeGivenUp) {
+  (*live_)->perform("give-up");
+  ASSERT_TRUE(closes());
+  (*live_)->finish();
+  EXPECT_EQ((*live_)->exitCode(), 0);
+}
+
+TEST_F(Saving, ASavedSolveThatIsDroppedGoesOnOnItsScene) {
+  LiveViewer::Options options;
+  options.scene = folder_ / "room.obj";
+  options.solve.elements = 300;
+  options.solve.error = 1e-9;
+  options.solve.max_shots = 20;
+  LiveViewer live(options);
+  const std::string saved = folder_ / "s.unshot";
+  live->perform("open", saved);
+  EXPECT_TRUE(live->error()) << "its scene is not there yet";
+  live->perform("dismiss");
+  ASSERT_TRUE(live.untilPhase(SessionPhase::kStopped));
+  live->perform("save-solve", saved);
+  ASSERT_TRUE(live.until([&] { return live->state().saves == 1; }));
+  live->perform("restart");
+  live->pause();
+  ASSERT_TRUE(live.until([&] { return live->upToDate() && live->state().measures.shots < 20; }));
+  live->perform("open", saved);
+  ASSERT_TRUE(live.until([&] { return live->state().resumed && live->upToDate(); }));
+  EXPECT_FALSE(live->error());
+  EXPECT_EQ(live->state().resumed->shots, 20u);
+  EXPECT_GE(live->state().measures.shots, 20u);
+  EXPECT_EQ(live->state().facts->scene_name, "room");
 }
 
 /// The real window.

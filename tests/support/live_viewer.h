@@ -26,6 +26,7 @@ class LiveViewer {
     SolveOptions solve = {};
     std::string script = {};
     std::filesystem::path memory = {};
+    KeptSolve kept = {};
     int width = 320, height = 240;
   };
 
@@ -38,7 +39,7 @@ class LiveViewer {
     objects_ = std::make_unique<Objects>(*display_);
     ViewerSetup setup;
     setup.display = display_.get();
-    setup.session = {solver_.get(), [this] { ring(); }};
+    setup.session = {solver_.get(), [this] { ring(); }, options.kept};
     setup.scene = options.scene;
     setup.options = options.solve;
     setup.settings.view.display = "radiosity";

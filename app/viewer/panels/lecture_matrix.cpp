@@ -293,6 +293,12 @@ void missing(Viewer& viewer) {
     tooltip("Space");
     return;
   }
+  if (state.measures.shots == 0) {
+    const char* dark = "Nothing of this scene emits light: nothing is shot, and M has no form factors.";
+    const char* early = "M is gathered from the form factors of shots: none was shot yet.";
+    wrapped(state.stopped_by == "no light" ? dark : early);
+    return;
+  }
   const std::string wait = bounceWaitText(state);
   if (wait.empty() || snapshot.bounce_wait.columns == 0) {
     dimmed("M is being gathered \u2026");

@@ -17,7 +17,6 @@ namespace {
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
                                     ImGuiWindowFlags_NoFocusOnAppearing;
-constexpr double kTaskSeconds = 0.3;  // what takes no longer is not told
 constexpr const char* kHint = "Drag to orbit, click to pick, H for help, Ctrl+P for all actions";
 
 void errorWindow(Viewer& viewer, float middle) {
@@ -49,7 +48,7 @@ void errorWindow(Viewer& viewer, float middle) {
 /// Whether there was one to show.
 bool tasksWindow(Viewer& viewer, float middle) {
   std::vector<Task> tasks = viewer.tasks();
-  std::erase_if(tasks, [](const Task& task) { return wallSeconds() < task.since + kTaskSeconds; });
+  std::erase_if(tasks, [](const Task& task) { return !task.shown(wallSeconds()); });
   if (tasks.empty()) return false;
   ImGui::SetNextWindowPos({middle, ImGui::GetIO().DisplaySize.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowBgAlpha(0.85f);
