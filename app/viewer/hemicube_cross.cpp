@@ -105,7 +105,7 @@ std::span<const HemicubePictureRow> hemicubePictures() {
       {{"delta", "Delta form factors", "what share of the patch's light leaves through each pixel"},
        HemicubeColours::kDelta},
       {{"shares", "What each patch gets",
-        "form factors F: each patch in the colour of the delta form factors that it fills, three decades"},
+        "form factors G_ij: each patch in the colour of the delta form factors that it fills, three decades"},
        HemicubeColours::kShares},
   }};
   return table;

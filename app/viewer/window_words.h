@@ -8,7 +8,7 @@
 
 namespace unshot {
 
-/// Units and advice as the window has them. Options for which it has no control stay.
+/// Units and advice as the window has them.
 std::string windowWords(std::string text);
 
 /// The same for an error's message and advice.

@@ -1,8 +1,8 @@
 // What a lecture shows of a solve beside its light: the form factors of one patch, the last shot by itself,
 // and the matrix M gathered to a few groups of patches.
 //
-// With P = R K among patches, F_ij = P_ij is the share of patch i's view that patch j fills, and by
-// reciprocity the share of i's light that arrives at j: B_i = E_i + R_i sum_j F_ij B_j. All of it is the
+// With P = R K among patches, G_ij = P_ij is the share of patch i's view that patch j fills, and by
+// reciprocity the share of i's light that arrives at j: B_i = E_i + R_i sum_j G_ij B_j. All of it is the
 // solver's own K, as far as its columns are at hand.
 #pragma once
 
@@ -26,7 +26,7 @@ struct VertexField {
 /// A patch that light comes from.
 struct PatchSource {
   std::uint32_t patch = 0;
-  double factor = 0;          ///< F_ij
+  double factor = 0;          ///< G_ij
   glm::dvec3 radiosity{0.0};  ///< B_j [W/m^2]
 };
 
@@ -40,14 +40,14 @@ struct PatchInsight {
   glm::dvec3 unshot{0.0};     ///< U_i [W/m^2]
   glm::dvec3 received{0.0};   ///< H_i, the mean over the patch of what others have shot so far [W/m^2]
   /// Column i: where the patch's light goes. Empty where it is not at hand.
-  std::vector<float> sent;                       ///< F_ij by A_i F_ij = A_j F_ji, one per patch j
-  std::shared_ptr<const VertexField> sent_over;  ///< F_ij per area of j [1/m^2], all channels alike
+  std::vector<float> sent;                       ///< G_ij by A_i G_ij = A_j G_ji, one per patch j
+  std::shared_ptr<const VertexField> sent_over;  ///< G_ij per area of j [1/m^2], all channels alike
   double escape = 0, defect = 0;                 ///< as Column has them
   ColumnQuality quality = ColumnQuality::kFull;
   /// Row i, over the columns at hand.
-  std::vector<float> seen;           ///< F_ij, one per patch j; 0 where column j is not at hand
-  double row_sum = 0;                ///< sum_j F_ij
-  glm::dvec3 gathered{0.0};          ///< sum_j F_ij B_j [W/m^2]
+  std::vector<float> seen;           ///< G_ij, one per patch j; 0 where column j is not at hand
+  double row_sum = 0;                ///< sum_j G_ij
+  glm::dvec3 gathered{0.0};          ///< sum_j G_ij B_j [W/m^2]
   std::vector<PatchSource> sources;  ///< where most of that comes from, the largest first
   std::size_t missing = 0;           ///< patches with light whose columns are not at hand
 };
@@ -68,7 +68,7 @@ struct ShotInsight {
   std::shared_ptr<const VertexField> added;  ///< rho K d, what it added to B [W/m^2]
 };
 
-/// M = R F gathered to groups of patches, all of one side as far as that goes.
+/// M = R G gathered to groups of patches, all of one side as far as that goes.
 struct GatheredMatrix {
   static constexpr std::size_t kMostGroups = 64;
 
@@ -86,7 +86,7 @@ struct GatheredMatrix {
   std::uint64_t cut = 0;
   std::vector<std::uint32_t> group;  ///< one per patch and, where there is one, the sky
   std::vector<Group> groups;
-  std::vector<double> factors;        ///< F_ij = sum_p A_p sum_q P_pq / A_i, row by row
+  std::vector<double> factors;        ///< G_ij = sum_p A_p sum_q P_pq / A_i, row by row
   std::vector<glm::dvec3> transport;  ///< M_ij, the same with R_p: the share of j's radiosity that i reflects
   std::size_t columns = 0;            ///< at hand, of as many as there are patches
   std::size_t missing = 0;  ///< of patches that hold light; the others that are not at hand hold none

@@ -64,7 +64,7 @@ class LookingOn {
   } found_;
   std::vector<PatchShare> shares_;  // of it
   PatchInsight column_;             // what follows from its column alone
-  std::vector<float> row_;          // F_ij
+  std::vector<float> row_;          // G_ij
   std::size_t missing_ = 0;
 };
 

@@ -5,6 +5,12 @@
 #include <gmock/gmock.h>
 #include <imgui_internal.h>
 
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+
 #include "base/clock.h"
 #include "gui/support/gui_layout.h"
 #include "support/live_viewer.h"
@@ -178,6 +184,66 @@ TEST(WindowWords, NameControlsInsteadOfOptions) {
       "number of bounces");
   EXPECT_THAT(reflecting, testing::Not(HasSubstr("--")));
   EXPECT_THAT(reflecting, HasSubstr("action bounces N"));
+}
+
+/// The texts in a source that are strings, those that follow each other joined.
+std::vector<std::string> stringsIn(const std::string& source) {
+  std::vector<std::string> out;
+  bool joined = false;
+  for (std::size_t k = 0; k < source.size(); ++k) {
+    if (source.compare(k, 2, "//") == 0) {
+      k = std::min(source.find('\n', k), source.size());
+    } else if (source[k] == '\'') {
+      k += source[k + 1] == '\\' ? 3 : 2;
+      joined = false;
+    } else if (source[k] == '"') {
+      std::string text;
+      for (++k; k < source.size() && source[k] != '"'; ++k) {
+        if (source[k] == '\\') ++k;
+        text += source[k];
+      }
+      if (joined) {
+        out.back() += text;
+      } else {
+        out.push_back(text);
+      }
+      joined = true;
+    } else if (std::isspace(static_cast<unsigned char>(source[k])) == 0) {
+      joined = false;
+    }
+  }
+  return out;
+}
+
+/// Whether the text names an option, as in "--elements".
+bool namesOption(const std::string& text) {
+  for (std::size_t at = 0; (at = text.find("--", at)) != std::string::npos; at += 2) {
+    const char next = at + 2 < text.size() ? text[at + 2] : ' ';
+    if (std::islower(static_cast<unsigned char>(next)) != 0) return true;
+  }
+  return false;
+}
+
+// All that core says of options, but for what is said before there is a window, in files of HTML and of
+// reports, and where both options are given.
+TEST(WindowWords, NameNoOptionOfWhatCoreSays) {
+  const std::set<std::string> without_window = {"gl/context.cpp", "gl/functions.cpp", "export/exporters.cpp",
+                                                "export/probes.cpp"};
+  std::size_t told = 0;
+  const std::filesystem::path core = std::filesystem::path(UNSHOT_SOURCE_DIR) / "core";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(core)) {
+    const std::string file = std::filesystem::relative(entry.path(), core).string();
+    if (entry.path().extension() != ".cpp" || file.starts_with("report/") || without_window.contains(file))
+      continue;
+    std::ifstream stream(entry.path());
+    const std::string source{std::istreambuf_iterator<char>(stream), {}};
+    for (const std::string& text : stringsIn(source)) {
+      if (!namesOption(text) || text.find("exclude each other") != std::string::npos) continue;
+      ++told;
+      EXPECT_FALSE(namesOption(windowWords(text))) << file << ": " << windowWords(text);
+    }
+  }
+  EXPECT_GT(told, 15u) << "a check that finds nothing may look at nothing";
 }
 
 // What the solver advises is written there, far from these words.
