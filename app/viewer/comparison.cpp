@@ -26,6 +26,7 @@ constexpr double kReadingShare = 0.2;
 constexpr double kBeside = 0.02;
 // In letters' heights: a scale that has room for all its figures.
 constexpr float kWideScale = 22;
+constexpr float kColoursWidth = 8;  // of the legend of sides and normals, in letters' heights
 
 std::string bouncesText(std::uint32_t bounces, bool alone) {
   return alone ? "bounce " + countText(bounces) + " alone" : "up to " + countedText(bounces, "bounce");
@@ -80,8 +81,13 @@ void drawScale(ImVec2 at, float width, float em) {
 
 }  // namespace
 
+float differenceScaleWidth(float room) {
+  const float em = ImGui::GetFontSize();
+  return std::clamp(room - 6 * em, 6 * em, 26 * em) + 2 * em;
+}
+
 void differenceScale(const std::string& title, const char* unit, float room) {
-  const float em = ImGui::GetFontSize(), width = std::clamp(room - 6 * em, 6 * em, 26 * em);
+  const float em = ImGui::GetFontSize(), width = differenceScaleWidth(room) - 2 * em;
   wrapped(title, width + 2 * em);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   drawScale({at.x + em, at.y}, width, em);
@@ -195,7 +201,7 @@ std::string bounceWaitText(const SessionState& state) {
   if (!state.snapshot || !state.facts) return {};
   const BounceWait& wait = state.snapshot->bounce_wait;
   if (wait.columns == 0) return {};
-  if (wait.no_room) return "form factors do not fit into their memory (option --keep of unshot view)";
+  if (wait.no_room) return "form factors do not fit into their memory, which the action keep makes larger";
   return countText(wait.columns) + " of " + countText(state.facts->patches) +
          " columns of form factors are missing";
 }
@@ -225,16 +231,19 @@ std::string differenceTitle(const SessionState& state, const ViewOptions& view) 
 
 void buildLegend(const SessionState& state, const ViewOptions& view, LowerEdge& edge) {
   if (!state.snapshot) return;
-  const std::string light = lightText(state, view.light);
   const Quantity quantity = displayMode(view.display).quantity;
   const bool colours = quantity == Quantity::kSides || quantity == Quantity::kNormals;
+  const float em = ImGui::GetFontSize(), gap = 0.7f * em;
+  const float borders = 2 * ImGui::GetStyle().WindowPadding.x + 2 * gap;
+  const std::string light =
+      brokenText(lightText(state, view.light), std::max(edge.sceneWidth() - borders, 8 * em));
   if (light.empty() && !colours) return;
-  const float em = ImGui::GetFontSize();
   // Beside the legend of false colours, where there is room.
-  const float width =
-      ImGui::CalcTextSize(light.c_str()).x + 2 * ImGui::GetStyle().WindowPadding.x + 1.4f * em;
-  const float bottom = edge.aboveLeft(width);
-  ImGui::SetNextWindowPos({0.7f * em, bottom - 0.7f * em}, ImGuiCond_Always, {0, 1});
+  const float width = borders + (colours ? kColoursWidth * em : ImGui::CalcTextSize(light.c_str()).x);
+  const float bottom = edge.above(0, width);
+  const float height = ImGui::CalcTextSize(light.c_str()).y + 2 * ImGui::GetStyle().WindowPadding.y;
+  if (bottom - gap - height < edge.top()) return;
+  ImGui::SetNextWindowPos({gap, bottom - gap}, ImGuiCond_Always, {0, 1});
   ImGui::SetNextWindowBgAlpha(0.85f);
   ImGui::Begin("legend", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
@@ -245,7 +254,7 @@ void buildLegend(const SessionState& state, const ViewOptions& view, LowerEdge& 
   } else {
     ImGui::TextUnformatted(light.c_str());
   }
-  edge.left = bottom - 0.7f * em - ImGui::GetWindowHeight();
+  edge.take(0, width, bottom - gap - ImGui::GetWindowHeight());
   ImGui::End();
 }
 

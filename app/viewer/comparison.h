@@ -29,12 +29,14 @@ std::string bounceWaitText(const SessionState& state);
 /// A scale of relative differences with its title, in a picture `room` wide [px]; `unit` says of what they
 /// are parts.
 void differenceScale(const std::string& title, const char* unit, float room);
+/// Its width [px].
+float differenceScaleWidth(float room);
 
 /// What the display mode `difference` shows: what is subtracted from what.
 std::string differenceTitle(const SessionState& state, const ViewOptions& view);
 
 /// A line on the part of the light that is shown, or the colours of sides and normals, at the scene's lower
-/// left; nothing for a picture of all light.
+/// left; nothing for a picture of all light, nor where there is no room.
 void buildLegend(const SessionState& state, const ViewOptions& view, LowerEdge& edge);
 
 }  // namespace unshot

@@ -43,6 +43,17 @@ bool userActs() {
          std::any_of(std::begin(io.KeysDown), std::end(io.KeysDown), down);
 }
 
+/// The GUI is laid out in pixels of the framebuffer, as the scene is, whatever unit the window system counts
+/// in: the host's sizes and places become pixels.
+void layOutInPixels(ImGuiIO& io) {
+  const ImVec2 scale = io.DisplayFramebufferScale;
+  if (!(scale.x > 0 && scale.y > 0) || (scale.x == 1 && scale.y == 1)) return;
+  io.DisplaySize = {io.DisplaySize.x * scale.x, io.DisplaySize.y * scale.y};
+  // ImGui has a place that is no place.
+  if (ImGui::IsMousePosValid(&io.MousePos)) io.MousePos = {io.MousePos.x * scale.x, io.MousePos.y * scale.y};
+  io.DisplayFramebufferScale = {1, 1};
+}
+
 }  // namespace
 
 double Viewer::nextFrame(double now) const {
@@ -194,22 +205,24 @@ bool Viewer::draw(GLuint framebuffer, int width, int height) {
   scene_height_ = height;
   measureReference(now);
   const bool stands = screenshotStands();
+  layOutInPixels(ImGui::GetIO());
   ImGui::NewFrame();
   if (userActs() && notice_.userActs(now)) input();
   navigate(seconds);
-  float bottom = static_cast<float>(height);
-  if (!ui_.clean) {
-    buildSidePanel(*this, width - beside.panel);
-    bottom -= buildStatusLine(*this, scene_width_);
-    LowerEdge edge{bottom, bottom, 0, static_cast<float>(scene_width_)};
+  const bool covered = beside.over > 0;
+  const float bottom =
+      static_cast<float>(height) - (ui_.clean || covered ? 0 : buildStatusLine(*this, scene_width_));
+  LowerEdge edge(static_cast<float>(scene_width_), belowNames(*this), bottom);
+  if (!ui_.clean) buildSidePanel(*this, width - beside.panel - beside.over);
+  if (!ui_.clean && !covered) {
     buildFalseColourLegend(*this, edge);
+    buildReferencePicture(*this, bottom, edge);
     buildLegend(*state_, ui_.settings.view, edge);
-    buildReferencePicture(*this, scene_width_, bottom);
     buildLectureMarks(*this, scene_width_);
     buildLecture(*this, scene_width_, beside.lecture);
     buildHemicube(*this, edge);
   }
-  buildOverlays(*this, scene_width_, bottom, !stands, scene_.framing() || frame_wanted_);
+  buildOverlays(*this, edge, covered, !stands, scene_.framing() || frame_wanted_);
   ImGui::Render();
 
   if (renderer().hardware) {

@@ -162,7 +162,8 @@ void Viewer::copyCamera(bool options) {
   requiredMesh();
   const Camera camera = *cameraInFile();
   ImGui::SetClipboardText((options ? cameraOptions(camera) : cameraLines(camera)).c_str());
-  passingNotice("copied");
+  // There are no options for it.
+  passingNotice(options && camera.orthographic ? "copied; unshot solve draws in perspective" : "copied");
 }
 
 }  // namespace unshot

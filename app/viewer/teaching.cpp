@@ -8,8 +8,9 @@
 namespace unshot {
 namespace {
 
-constexpr double kLookSeconds = 0.25;  // between two looks, or two paintings, while the solve runs
-constexpr std::size_t kOutlines = 64;  // kept
+constexpr double kLookSeconds = 0.25;     // between two looks, or two paintings, while the solve runs
+constexpr std::size_t kOutlines = 8;      // kept
+constexpr std::size_t kMostLit = 30'000;  // triangles that are filled; a place of more is framed alone
 
 /// The edges around display triangles that `inside` has, each run along once.
 template <class Inside>
@@ -31,13 +32,26 @@ std::vector<std::pair<glm::vec3, glm::vec3>> outlineAround(const Mesh& mesh, Ins
   return out;
 }
 
+/// The corners of these display triangles; none where they are too many to be drawn in each frame.
+template <class Inside>
+std::vector<glm::vec3> trianglesIn(const Mesh& mesh, Inside&& inside) {
+  std::vector<glm::vec3> out;
+  for (std::uint32_t t = 0; t < mesh.triangle_element.size(); ++t) {
+    if (!inside(mesh.element_patch[mesh.triangle_element[t]])) continue;
+    for (std::uint32_t k = 0; k < 3; ++k)
+      out.push_back(mesh.vertices[mesh.triangle_vertices[3 * t + k]].position);
+    if (out.size() > 3 * kMostLit) return {};
+  }
+  return out;
+}
+
 }  // namespace
 
 std::span<const LecturePageRow> lecturePages() {
   static constexpr std::array<LecturePageRow, 4> table = {{
       {{"matrix", "Matrix", "M = R G gathered to groups of patches, its powers and partial sums"},
        LecturePage::kMatrix},
-      {{"equation", "Equation", "B = E + R sum F B with the numbers of the picked patch"},
+      {{"equation", "Equation", "B_i = E_i + R_i \u2211 G_ij B_j with the numbers of the picked patch"},
        LecturePage::kEquation},
       {{"shots", "Shots", "one shot after the other: what it sends where"}, LecturePage::kShots},
       {{"effects", "Effects", "what radiosity shows, and what it does not"}, LecturePage::kEffects},
@@ -151,14 +165,29 @@ const gl::Texture* Teaching::cross() {
   return &crosses_[cross_];
 }
 
+double Teaching::reflectance(std::size_t i) const {
+  const double own = insight()->matrix->groups[i].reflectance[choices.channel];
+  if (!choices.allow_divergence) return own;
+  return choices.alike ? choices.reflectance : choices.factor * own;
+}
+
+double Teaching::transport(std::size_t i, std::size_t j) const {
+  const GatheredMatrix& m = *insight()->matrix;
+  if (!choices.allow_divergence) return m.at(i, j)[choices.channel];
+  return choices.alike ? choices.reflectance * m.factor(i, j) : choices.factor * m.at(i, j)[choices.channel];
+}
+
 MatrixSeries& Teaching::series() {
   const GatheredMatrix& m = *insight()->matrix;
-  SeriesOf of{insight()->matrix, choices.channel, {}};
-  if (choices.allow_divergence) of.reflectance = choices.reflectance;
+  SeriesOf of{insight()->matrix, choices.channel, 1, {}};
+  if (choices.allow_divergence && choices.alike) of.reflectance = choices.reflectance;
+  if (choices.allow_divergence && !choices.alike) of.factor = choices.factor;
   if (of == series_of_) return series_;
-  std::vector<double> matrix(m.size() * m.size());
-  for (std::size_t k = 0; k < matrix.size(); ++k)
-    matrix[k] = of.reflectance ? *of.reflectance * m.factors[k] : m.transport[k][choices.channel];
+  std::vector<double> matrix;
+  matrix.reserve(m.size() * m.size());
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    for (std::size_t j = 0; j < m.size(); ++j) matrix.push_back(transport(i, j));
+  }
   series_ = MatrixSeries(std::move(matrix), m.size());
   series_of_ = of;
   return series_;
@@ -178,15 +207,16 @@ std::vector<double> Teaching::solution() const {
 }
 
 template <class Of>
-void Teaching::mark(std::uint64_t key, bool source, Of&& of) {
+void Teaching::mark(std::uint64_t key, bool source, bool lit, Of&& of) {
   const Mesh& mesh = *snapshot_->mesh;
-  key = 2 * key + (source ? 1 : 0);
+  key = 4 * key + (source ? 1 : 0) + (lit ? 2 : 0);
   const auto same = [&](const Outline& o) { return o.cut == mesh.cut && o.key == key; };
   auto at = std::find_if(outlines_.begin(), outlines_.end(), same);
   if (at == outlines_.end()) {
     if (outlines_.size() >= kOutlines) outlines_.erase(outlines_.begin());
     auto made = std::make_shared<Mark>();
     made->outline = outlineAround(mesh, of);
+    if (lit) made->lit = trianglesIn(mesh, of);
     made->source = source;
     outlines_.push_back({mesh.cut, key, std::move(made)});
     at = outlines_.end() - 1;
@@ -194,13 +224,13 @@ void Teaching::mark(std::uint64_t key, bool source, Of&& of) {
   wanted_marks_.push_back(at->mark);
 }
 
-void Teaching::markPatch(std::uint32_t patch, bool source) {
-  mark(2 * std::uint64_t{patch}, source, [patch](std::uint32_t q) { return q == patch; });
+void Teaching::markPatch(std::uint32_t patch, bool source, bool lit) {
+  mark(2 * std::uint64_t{patch}, source, lit, [patch](std::uint32_t q) { return q == patch; });
 }
 
 void Teaching::markGroup(std::uint32_t group, bool source) {
   const std::vector<std::uint32_t>& of = insight()->matrix->group;
-  mark(2 * std::uint64_t{group} + 1, source, [&](std::uint32_t q) { return of[q] == group; });
+  mark(2 * std::uint64_t{group} + 1, source, true, [&](std::uint32_t q) { return of[q] == group; });
 }
 
 }  // namespace unshot

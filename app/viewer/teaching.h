@@ -36,9 +36,11 @@ struct TeachingChoices {
   std::size_t power = 2;  ///< k of M^k and I + ... + M^k
   bool sums = false;      ///< the partial sum instead of the power
   int channel = 1;        ///< 0 red, 1 green, 2 blue
-  /// Whether the reflectance of the matrix may be changed, to 1 and above.
+  /// Whether the reflectance of the matrix may be changed, to 1 and above: each group's own times a factor,
+  /// or one for all.
   bool allow_divergence = false;
-  double reflectance = 1;  ///< of every group then, in the place of its own
+  bool alike = false;
+  double factor = 1, reflectance = 1;
 };
 
 /// All calls on the main thread, with the context current.
@@ -52,7 +54,8 @@ class Teaching {
   /// What stands where in the scene, of one kind.
   struct Mark {
     std::vector<std::pair<glm::vec3, glm::vec3>> outline;
-    bool source = false;  ///< sends light, rather than receives it
+    std::vector<glm::vec3> lit;  ///< corners of its triangles, three each; none where it is only framed
+    bool source = false;         ///< sends light, rather than receives it
   };
 
   /// Takes what is new and asks for what is wanted now, by what the actions have chosen, the display mode and
@@ -78,7 +81,10 @@ class Teaching {
   /// The cross as a texture, as chosen; null before the first look.
   const gl::Texture* cross();
 
-  /// Of the matrix and the channel that are chosen, with the reflectance that is; made once.
+  /// R_i of a group and R_i G_ij of two, in the channel and with the reflectance that are chosen.
+  double reflectance(std::size_t i) const;
+  double transport(std::size_t i, std::size_t j) const;
+  /// Of the matrix of these; made once.
   MatrixSeries& series();
   /// Its right side E and, where the reflectance is the groups' own, the solve's B: one a group.
   std::vector<double> emission() const;
@@ -86,7 +92,9 @@ class Teaching {
 
   /// Patches to be marked in the next frame; what was asked for in the frame before is forgotten.
   void beginMarks() { marked_ = std::exchange(wanted_marks_, {}); }
-  void markPatch(std::uint32_t patch, bool source);
+  /// `lit`: filled as well as framed.
+  void markPatch(std::uint32_t patch, bool source, bool lit);
+  /// Lit.
   void markGroup(std::uint32_t group, bool source);
   const std::vector<std::shared_ptr<const Mark>>& marks() const { return marked_; }
 
@@ -94,7 +102,7 @@ class Teaching {
   InsightWanted wanted(std::string_view display) const;
   void lookFrom(std::uint32_t patch, bool running);
   template <class Of>
-  void mark(std::uint64_t key, bool source, Of&& of);
+  void mark(std::uint64_t key, bool source, bool lit, Of&& of);
 
   gl::Context& context_;
   HemicubeLooks looks_;
@@ -125,6 +133,7 @@ class Teaching {
   struct SeriesOf {
     std::shared_ptr<const GatheredMatrix> matrix;
     int channel = -1;
+    double factor = 1;
     std::optional<double> reflectance;
     bool operator==(const SeriesOf&) const = default;
   } series_of_;

@@ -74,13 +74,16 @@ struct ViewerState {
   SolveOptions options;  ///< of the present or the next solve
   DisplaySettings settings;
   bool panel = true;
-  bool status = true;  ///< with the panel: the line at the bottom of the scene
-  bool clean = false;  ///< nothing but the scene, whatever else is on
+  bool panel_over = false;  ///< over the scene, where it has no room beside it
+  bool status = true;       ///< with the panel: the line at the bottom of the scene
+  bool clean = false;       ///< nothing but the scene, whatever else is on
   bool help = false;
   bool notes = false;      ///< those on the scene, in full
   bool left_out = false;   ///< what the solve leaves out, in full
   bool materials = false;  ///< to be changed
   bool hint = false;       ///< what to do first
+  /// Sections of the panel to be opened or closed (none: the other way) when it is built next.
+  std::vector<std::pair<std::string, std::optional<bool>>> section_changes;
   Prompt prompt;
   std::vector<std::filesystem::path> recent;  ///< scenes, as of when the list was opened
   std::size_t material = 0;                   ///< the one chosen
@@ -115,9 +118,9 @@ class Viewer {
   bool prepare();
   /// When update() is wanted without an event.
   double nextUpdate() const;
-  /// Builds the GUI from ImGui's IO (whose display size it takes) and draws the window's content into
-  /// `framebuffer`. Returns false where that looks as it did before: then nothing was drawn, and what is on
-  /// the screen stays there.
+  /// Builds the GUI from ImGui's IO (in whatever unit its framebuffer scale says) and draws the window's
+  /// content into `framebuffer`. Returns false where that looks as it did before: then nothing was drawn, and
+  /// what is on the screen stays there.
   bool draw(GLuint framebuffer, int width, int height);
   /// What draw() drew is on the screen.
   void presented();

@@ -98,6 +98,16 @@ void fitToScreen(WindowOptions& options) {
   if (height > 0) options.height = std::min(options.height, height);
 }
 
+/// To a framebuffer of this size [px]; the window system may count in larger units.
+void resize(GLFWwindow* window, int width, int height) {
+  int units = 0, pixels = 0;
+  glfwGetWindowSize(window, &units, nullptr);
+  glfwGetFramebufferSize(window, &pixels, nullptr);
+  const double unit = units > 0 && pixels > 0 ? static_cast<double>(units) / pixels : 1;
+  glfwSetWindowSize(window, static_cast<int>(std::lround(unit * width)),
+                    static_cast<int>(std::lround(unit * height)));
+}
+
 void runLoop(Receiver& receiver, GLFWwindow* window) {
   Viewer& viewer = receiver.viewer;
   while (!viewer.closing()) {
@@ -145,7 +155,7 @@ int runWindow(ViewerSetup setup, const WindowOptions& wanted) {
     setup.display = display.get();
     setup.session.gl = solver.get();
     setup.session.wake = [] { glfwPostEmptyEvent(); };
-    setup.resize = [window](int width, int height) { glfwSetWindowSize(window, width, height); };
+    setup.resize = [window](int width, int height) { resize(window, width, height); };
     setup.title = [window](const std::string& title) { glfwSetWindowTitle(window, title.c_str()); };
     std::shared_ptr<void> watch;
     if (setup.watch_interrupts) watch = setup.watch_interrupts([] { glfwPostEmptyEvent(); });

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <imgui_internal.h>
 
-#include <map>
 #include <set>
 
 #include "base/atomic_file.h"
@@ -11,6 +10,8 @@
 #include "export/image_files.h"
 #include "export/ply.h"
 #include "formfactor/methods.h"
+#include "gui/support/gui_layout.h"
+#include "gui/support/valid_arguments.h"
 #include "render/display_modes.h"
 #include "solver/modes.h"
 #include "support/assets.h"
@@ -26,6 +27,7 @@ using testing_support::kCornellBox;
 using testing_support::kTwoPatches;
 using testing_support::LiveViewer;
 using testing_support::TempFolder;
+using testing_support::validArguments;
 
 TEST(Actions, KeysAndShortcutsAreUnique) {
   std::set<std::string_view> keys;
@@ -73,80 +75,6 @@ TEST(Actions, UnknownOnesAreUsageErrors) {
       EXPECT_THAT(error.advice(), HasSubstr("screenshot-scene"));
     }
   }
-}
-
-// For each action an argument that it must take; actions without one are not listed.
-const std::map<std::string_view, std::string>& validArguments() {
-  static const std::map<std::string_view, std::string> arguments{
-      {"open", kTwoPatches},
-      {"pause", "on"},
-      {"step", "2"},
-      {"browse", asset("").string()},
-      {"actions", "bounces 2"},
-      {"clean", "on"},
-      {"watch", "on"},
-      {"mode", "jacobi"},
-      {"race", "southwell"},
-      {"form-factors", "hemicube"},
-      {"elements", "300"},
-      {"do", "triangles on"},
-      {"do-all", "off"},
-      {"left-out", "on"},
-      {"sky", "0.5,0.5,1"},
-      {"hemicube", "32"},
-      {"error", "0.02"},
-      {"display", "flat"},
-      {"radiosity", "off"},
-      {"ambient", "off"},
-      {"exposure", "-1.5"},
-      {"lock-exposure", "on"},
-      {"camera", "278,273,-800,278,273,0,39"},
-      {"view", "top"},
-      {"projection", "orthographic"},
-      {"fov", "50"},
-      {"speed", "2"},
-      {"camera-preset", "cornell"},
-      {"copy-camera", "options"},
-      {"panel", "off"},
-      {"help", "on"},
-      {"notes", "on"},
-      {"status", "off"},
-      {"tone", "filmic"},
-      {"histogram", "on"},
-      {"reference-picture", "picture.png"},
-      {"wipe", "0.25"},
-      {"picture-difference", "on"},
-      {"plot", "rows"},
-      {"bounces", "2"},
-      {"bounce-alone", "2"},
-      {"reference", "solution.ply"},
-      {"size", "400x300"},
-      {"scale", "1.5"},
-      {"screenshot", "with.png"},
-      {"screenshot-scene", "without.png"},
-      {"save-solve", "with.unshot"},
-      {"reflectance", "floor 0.5,0.25,0"},
-      {"emission", "floor 1,0,0.5"},
-      {"light", "floor off"},
-      {"save-materials", "with.mtl"},
-      {"materials", "on"},
-      {"unit", "683"},
-      {"isolines", "off"},
-      {"logarithmic", "on"},
-      {"pick", "0.5,0.6"},
-      {"unpin-probe", "1"},
-      {"save-probes", "with.csv"},
-      {"hemicube-view", "on"},
-      {"hemicube-picture", "shares"},
-      {"lecture", "on"},
-      {"lecture-page", "shots"},
-      {"matrix-power", "7"},
-      {"matrix-sums", "on"},
-      {"matrix-channel", "blue"},
-      {"allow-divergence", "on"},
-      {"matrix-reflectance", "1.1"},
-  };
-  return arguments;
 }
 
 TEST(Actions, ChecksRefuseNonsenseAndNeverThrow) {
@@ -206,8 +134,9 @@ LiveViewer::Options boxToActOn() {
 
 /// Performs it and runs until it is carried out and shown.
 void performAndSettle(LiveViewer& live, const Action& action, const std::string& argument) {
-  static const std::set<std::string_view> kSolveAnew{
-      "open", "reload", "restart", "form-factors", "elements", "hemicube", "again", "do", "do-all"};
+  static const std::set<std::string_view> kSolveAnew{"open",     "reload",   "restart", "form-factors",
+                                                     "elements", "hemicube", "again",   "do",
+                                                     "do-all",   "emit",     "keep"};
   const std::uint64_t epoch = live->state().epoch;
   live->perform(action.key, argument);
   for (int frame = 0; frame < 5; ++frame) live.draw();
@@ -274,6 +203,91 @@ TEST_F(EveryAction, WithoutASceneNoneCrashes) {
   }
   EXPECT_EQ(live->state().phase, SessionPhase::kEmpty);
   EXPECT_TRUE(std::filesystem::exists("with.png"));
+}
+
+const ImGuiWindow* sections() {
+  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+    if (window->Active && std::string(window->Name).starts_with("panel/sections")) return window;
+  }
+  return nullptr;
+}
+
+std::string sectionsText() {
+  std::string out;
+  for (const auto& letter : testing_support::Letters(*ImGui::GetIO().Fonts).of(*sections()->DrawList))
+    out += letter.text;
+  return out;
+}
+
+TEST(SectionAction, OpensAndClosesEachAndScrollsToIt) {
+  LiveViewer live(boxToActOn());
+  ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
+  live->perform("next-display");
+  const auto shown = [&](const std::string& argument) {
+    live->perform("section", argument);
+    for (int frame = 0; frame < 4; ++frame) live.draw();
+    EXPECT_FALSE(live->error());
+    return sectionsText();
+  };
+  shown("messages off");
+  const float without = sections()->ScrollMax.y;
+  const std::string text = shown("messages on");
+  EXPECT_THAT(text, HasSubstr("display:Radiosityperelement")) << "the panel is longer than the window";
+  EXPECT_GT(sections()->ScrollMax.y, without);
+  EXPECT_THAT(shown("messages"), testing::Not(HasSubstr("display:Radiosityperelement")));
+  EXPECT_THAT(shown("solve on"), HasSubstr("Iteration"));
+  const float open = sections()->ScrollMax.y;
+  shown("solve off");
+  EXPECT_LT(sections()->ScrollMax.y, open);
+  live->perform("section", "zebra");
+  EXPECT_TRUE(live->error());
+}
+
+TEST(MaterialAction, ChoosesTheOneThatThePanelShows) {
+  LiveViewer live(boxToActOn());
+  ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
+  for (const Material& material : live->edits().materials()) {
+    live->perform("material", material.name);
+    EXPECT_EQ(live->edits().materials()[live->ui().material].name, material.name);
+  }
+  live->perform("material", "zebra");
+  EXPECT_TRUE(live->error());
+}
+
+TEST(EmitAction, SolvesAgainWithOneSideOfLights) {
+  LiveViewer::Options options = boxToActOn();
+  options.scene = kTwoPatches;
+  LiveViewer live(options);
+  ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
+  EXPECT_FALSE(live->state().facts->options.emit_front_only);
+  const std::uint64_t epoch = live->state().epoch;
+  live->perform("emit", "front");
+  ASSERT_TRUE(live.until(
+      [&] { return live->state().epoch > epoch && live->state().phase == SessionPhase::kConverged; }));
+  EXPECT_TRUE(live->state().facts->options.emit_front_only);
+  live->perform("keep", "7");
+  ASSERT_TRUE(live.until(
+      [&] { return live->state().epoch > epoch + 1 && live->state().phase == SessionPhase::kConverged; }));
+  EXPECT_EQ(live->state().facts->options.kept_bytes, 7'000'000u);
+}
+
+TEST(CleanKey, LeavesNothingButTheScene) {
+  LiveViewer::Options options = boxToActOn();
+  options.width = 1280;
+  options.height = 800;
+  options.script =
+      "wait converged\npick 0.45,0.6\npin-probe\nhemicube-view on\nlecture-page equation\n"
+      "display false-radiosity\nradiosity off\nmaterials on\n";
+  LiveViewer live(options);
+  ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
+  ASSERT_TRUE(live.until([&] { return live->nextFrame(0) > 1e30; }));
+  EXPECT_GT(ImGui::GetDrawData()->TotalVtxCount, 1000);
+  live->key('X', false);
+  for (int frame = 0; frame < 3; ++frame) live.draw();
+  EXPECT_EQ(ImGui::GetDrawData()->TotalVtxCount, 0);
+  live->key('X', false);
+  for (int frame = 0; frame < 3; ++frame) live.draw();
+  EXPECT_GT(ImGui::GetDrawData()->TotalVtxCount, 1000);
 }
 
 TEST(LiveViewer, AWrongArgumentIsShownAndChangesNothing) {

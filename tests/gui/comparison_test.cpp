@@ -90,7 +90,7 @@ TEST(Comparison, WhatIsMissingIsSaidAndComputedOnlyWhenAsked) {
   const std::vector<glm::dvec3>& power = shown(live).bounce_light->power;
   ASSERT_GT(power.size(), 6u);
   for (std::size_t k = 1; k < power.size(); ++k) EXPECT_LT(bounceRatio(power, k), 1);
-  EXPECT_THAT(bounceText(power, 3), HasSubstr("Bounce 3: "));
+  EXPECT_THAT(bounceText(power, 3), HasSubstr("Bounce 3, B_3 = M^3 E: "));
 }
 
 TEST(Comparison, MoreBouncesThanAreKnownAreSaid) {

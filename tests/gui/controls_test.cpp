@@ -8,6 +8,7 @@
 #include <set>
 
 #include "export/image_files.h"
+#include "gui/support/mouse.h"
 #include "gui/support/panel.h"
 #include "gui/support/screen.h"
 #include "support/live_viewer.h"
@@ -17,31 +18,7 @@
 namespace unshot {
 namespace {
 
-using testing_support::eventually;
-using testing_support::idOf;
-using testing_support::LiveViewer;
-using testing_support::TempFolder;
-
-constexpr float kStep = 14;  // [px], less than any control is high
-
-/// A child window, such as the part of the panel that scrolls.
-const ImGuiWindow* childOf(const char* window, const char* child) {
-  const ImGuiWindow* parent = ImGui::FindWindowByName(window);
-  if (!parent) return nullptr;
-  const std::string start = std::string(window) + "/" + child + "_";
-  for (const ImGuiWindow* each : ImGui::GetCurrentContext()->Windows) {
-    if (each->Active && std::string(each->Name).starts_with(start)) return each;
-  }
-  return nullptr;
-}
-
-const ImGuiWindow* tooltipShown() {
-  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
-    if (window->Active && !window->Hidden && std::string(window->Name).starts_with("##Tooltip"))
-      return window;
-  }
-  return nullptr;
-}
+using namespace testing_support;
 
 class Controls : public testing::Test {
  protected:
@@ -64,53 +41,13 @@ class Controls : public testing::Test {
     ASSERT_FALSE(live_->error()) << live_->error()->fullText();
     rest();
   }
-  void rest() {
-    ASSERT_TRUE(live_.until([&] { return live_->nextFrame(0) > 1e30 && live_->scriptDone(); }));
-  }
-  void frames(int count = 2) {
-    for (int k = 0; k < count; ++k) {
-      live_->input();
-      live_.draw();
-    }
-  }
-  void mouseTo(const ImVec2& at) {
-    ImGui::GetIO().MousePos = at;
-    frames();
-  }
-
-  /// Where the mouse is over which item of the window, at these parts of its width.
+  void rest() { mouse_.rest(); }
+  void frames(int count = 2) { mouse_.frames(count); }
+  void mouseTo(const ImVec2& at) { mouse_.to(at); }
+  void click(const ImVec2& at) { mouse_.click(at); }
+  void drag(const ImVec2& at) { mouse_.drag(at); }
   std::map<ImGuiID, ImVec2> itemsIn(const ImGuiWindow& window, std::initializer_list<float> across) {
-    std::map<ImGuiID, ImVec2> found;
-    const ImRect box = window.InnerRect;
-    for (const float share : across) {
-      for (float y = box.Min.y + 2; y < std::min(box.Max.y, box.Min.y + window.ContentSize.y); y += kStep) {
-        ImGui::GetIO().MousePos = {box.Min.x + share * box.GetWidth(), y};
-        frames(1);
-        if (const ImGuiID id = ImGui::GetCurrentContext()->HoveredId)
-          found.emplace(id, ImGui::GetIO().MousePos);
-      }
-    }
-    return found;
-  }
-
-  void press(const ImVec2& at) {
-    mouseTo(at);
-    ImGui::GetIO().MouseDown[0] = true;
-    frames();
-  }
-  void letGo() {
-    ImGui::GetIO().MouseDown[0] = false;
-    frames();
-  }
-  void click(const ImVec2& at) {
-    press(at);
-    letGo();
-  }
-  /// Takes hold of a slider and pulls it to both sides.
-  void drag(const ImVec2& at) {
-    press(at);
-    for (const float by : {-10.0f, -25.0f, 15.0f, 40.0f}) mouseTo({at.x + by, at.y});
-    letGo();
+    return mouse_.itemsIn(window, across);
   }
 
   /// Drags the slider and sees that the value has become another one.
@@ -127,6 +64,7 @@ class Controls : public testing::Test {
   }
 
   LiveViewer live_;
+  Mouse mouse_{live_};
 };
 
 TEST_F(Controls, SlidersOfThePanelChangeWhatTheyStandFor) {
@@ -197,6 +135,7 @@ TEST_F(Controls, SlidersOfTheLectureChangeWhatTheyStandFor) {
   act("complete-bounces");
   act("lecture-page", "matrix");
   act("allow-divergence", "on");
+  act("matrix-reflectance", "1");
   ASSERT_TRUE(live_.until([&] { return live_->teaching().settled() && live_->teaching().insight(); }));
   rest();
   frames(3);
@@ -205,6 +144,9 @@ TEST_F(Controls, SlidersOfTheLectureChangeWhatTheyStandFor) {
   const auto items = itemsIn(*page, {0.1f, 0.55f});
   expectDrags(items, *page, "##power", [&] { return static_cast<double>(live_->teaching().choices.power); });
   expectDrags(items, *page, "##reflectance", [&] { return live_->teaching().choices.reflectance; });
+  act("matrix-factor", "1");
+  frames(3);
+  expectDrags(itemsIn(*page, {0.55f}), *page, "##factor", [&] { return live_->teaching().choices.factor; });
 }
 
 TEST_F(Controls, ColourPickersOpenAndChangeTheirMaterial) {
@@ -251,7 +193,7 @@ TEST_F(Controls, WhatTheMouseRestsOnSaysWhatItIs) {
   int places = 0;
   // Down the names at the left of the panel, and across buttons.
   for (const float share : {0.08f, 0.9f}) {
-    for (float y = 2; y < std::min(box.Max.y, box.Min.y + panel->ContentSize.y); y += kStep, ++places) {
+    for (float y = 2; y < std::min(box.Max.y, box.Min.y + panel->ContentSize.y); y += kMouseStep, ++places) {
       mouseTo({box.Min.x + share * box.GetWidth(), y});
       frames(1);  // ImGui shows a new window one frame late
       const ImGuiWindow* tip = tooltipShown();
@@ -277,7 +219,7 @@ TEST_F(Controls, TooltipsStayWithinASmallWindow) {
   const ImGuiWindow* panel = childOf("panel", "sections");
   ASSERT_TRUE(panel);
   int tips = 0;
-  for (float y = 4; y < 356; y += kStep) {
+  for (float y = 4; y < 356; y += kMouseStep) {
     mouseTo({panel->InnerRect.Min.x + 20, y});
     frames(1);
     const ImGuiWindow* tip = tooltipShown();
@@ -288,10 +230,6 @@ TEST_F(Controls, TooltipsStayWithinASmallWindow) {
   }
   EXPECT_GT(tips, 5);
 }
-
-using testing_support::Screen;
-using testing_support::WindowRun;
-using testing_support::xdotool;
 
 // The real window, where the model of the same size says that a control is.
 TEST(ControlsOfTheWindow, FollowTheMouse) {
@@ -307,7 +245,7 @@ TEST(ControlsOfTheWindow, FollowTheMouse) {
     ASSERT_TRUE(model.until([&] { return model->nextFrame(0) > 1e30; }));
     const ImGuiWindow* panel = childOf("panel", "sections");
     ASSERT_TRUE(panel);
-    for (float y = panel->InnerRect.Min.y; y < panel->InnerRect.Max.y; y += kStep) {
+    for (float y = panel->InnerRect.Min.y; y < panel->InnerRect.Max.y; y += kMouseStep) {
       ImGui::GetIO().MousePos = {panel->InnerRect.Min.x + 0.6f * panel->InnerRect.GetWidth(), y};
       model->input();
       model.draw();

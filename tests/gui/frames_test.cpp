@@ -1,5 +1,8 @@
 // What the viewer does between its frames: a picture that takes long does not keep the window from answering.
 #include <gtest/gtest.h>
+#include <imgui_internal.h>
+
+#include <tuple>
 
 #include "support/live_viewer.h"
 
@@ -79,6 +82,42 @@ TEST(ViewerFrame, IsDrawnAgainOnlyWhereItLooksOtherwise) {
   EXPECT_GT(with_help, before);
   live->damaged();
   EXPECT_EQ(rest(), with_help + 1);
+}
+
+// Some window systems count in units of several pixels, and the framebuffer is larger than they say.
+TEST(ViewerFrame, IsLaidOutInPixelsWhateverTheWindowSystemCountsIn) {
+  const auto panelOf = [](float pixels_per_unit) {
+    LiveViewer::Options options;
+    options.scene = UNSHOT_SOURCE_DIR "/assets/cornell_box.obj";
+    options.solve.elements = 200;
+    options.width = 1280;
+    options.height = 800;
+    options.pixels_per_unit = pixels_per_unit;
+    LiveViewer live(options);
+    EXPECT_TRUE(live.untilPhase(SessionPhase::kConverged));
+    EXPECT_TRUE(live.until([&] { return live->nextFrame(0) > 1e30; }));
+    const ImRect panel = ImGui::FindWindowByName("panel")->Rect();
+    // The mouse finds what is drawn below it: a place in the middle of the scene is picked there.
+    EXPECT_FALSE(live->picking().picked());
+    for (const bool down : {false, true, false}) {
+      ImGui::GetIO().MousePos = {440, 480};
+      ImGui::GetIO().MouseDown[0] = down;
+      live->input();
+      live.draw();
+    }
+    EXPECT_TRUE(live->picking().picked());
+    const glm::dvec3 at = live->picking().picked() ? live->picking().picked()->pick.position : glm::dvec3(0);
+    ImGui::GetIO().MousePos = {panel.Min.x + 40, panel.Min.y + 20};
+    live->input();
+    live.draw();
+    EXPECT_NE(ImGui::GetCurrentContext()->HoveredId, 0u) << "the choice of scenes";
+    return std::tuple(panel.Min.x, panel.Max.x, panel.Max.y, at.x, at.y, at.z);
+  };
+  const auto once = panelOf(1);
+  EXPECT_EQ(std::get<1>(once), 1280);
+  EXPECT_EQ(std::get<2>(once), 800);
+  EXPECT_EQ(panelOf(2), once);
+  EXPECT_EQ(panelOf(1.5f), once);
 }
 
 }  // namespace

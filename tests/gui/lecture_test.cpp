@@ -187,22 +187,82 @@ void hover(LiveViewer& live, float x, float y) {
   for (int frame = 0; frame < 4; ++frame) live.draw();
 }
 
+/// Corners of this colour over the scene.
+int filledCorners(ImU32 colour) {
+  int count = 0;
+  for (const ImDrawVert& vertex : ImGui::GetBackgroundDrawList()->VtxBuffer) count += vertex.col == colour;
+  return count;
+}
+
 // At 1280 x 800 the lecture is 540 px wide, its left map in the upper left of it, the hemicube in the lower
 // left of the scene.
-TEST(Lecture, WhatTheMouseIsOverIsFramedInTheScene) {
+TEST(Lecture, WhatTheMouseIsOverIsLitInTheScene) {
   LiveViewer live(boxToTeachWith(
       "wait converged\ncomplete-bounces\nlecture-page matrix\nhemicube-view on\npick 0.5,0.3\n"));
   ASSERT_TRUE(finished(live));
   ASSERT_TRUE(live.until([&] { return live->nextFrame(0) > 1e30; }));
   const Teaching& teaching = live->teaching();
-  EXPECT_EQ(teaching.marks().size(), 1u) << "the patch of the hemicube";
+  ASSERT_EQ(teaching.marks().size(), 1u) << "the patch of the hemicube";
+  EXPECT_TRUE(teaching.marks()[0]->lit.empty()) << "is seen as it is";
+  EXPECT_EQ(filledCorners(IM_COL32(255, 176, 64, 120)), 0);
   hover(live, 870, 300);
   ASSERT_EQ(teaching.marks().size(), 3u) << "two groups more";
-  for (const auto& mark : teaching.marks()) EXPECT_GE(mark->outline.size(), 3u);
+  int lit = 0;
+  for (const auto& mark : teaching.marks()) {
+    EXPECT_GE(mark->outline.size(), 3u);
+    lit += !mark->lit.empty();
+  }
+  EXPECT_EQ(lit, 2) << "both groups";
+  EXPECT_GE(filledCorners(IM_COL32(255, 176, 64, 120)), 3) << "what sends";
+  EXPECT_GE(filledCorners(IM_COL32(96, 190, 255, 120)), 3) << "what receives";
   hover(live, 40, 630);
-  EXPECT_EQ(teaching.marks().size(), 2u) << "a side face: what the hemicube's pixel sees";
+  ASSERT_EQ(teaching.marks().size(), 2u) << "a side face: what the hemicube's pixel sees";
+  EXPECT_GE(filledCorners(IM_COL32(96, 190, 255, 120)), 3);
   hover(live, 400, 100);
   EXPECT_EQ(teaching.marks().size(), 1u);
+}
+
+/// Corners in red of the lecture's page: bars and text that say that a series has no sum.
+int redCorners() {
+  int count = 0;
+  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+    if (!window->Active || !std::string(window->Name).starts_with("lecture/page")) continue;
+    for (const ImDrawVert& vertex : window->DrawList->VtxBuffer) {
+      const ImVec4 colour = ImGui::ColorConvertU32ToFloat4(vertex.col);
+      count += colour.x > 0.99f && colour.y < 0.5f && colour.z < 0.5f;
+    }
+  }
+  return count;
+}
+
+// The scene's own reflectances times a factor: the series grows once that brings the radius above 1.
+TEST(Lecture, TheGrowingSeriesIsRed) {
+  LiveViewer live(cornellBox("wait converged\ncomplete-bounces\nlecture-page matrix\n"));
+  ASSERT_TRUE(finished(live));
+  ASSERT_TRUE(live.until([&] { return live->teaching().insight() && live->teaching().insight()->matrix; }));
+  ASSERT_TRUE(live.until([&] { return live->nextFrame(0) > 1e30; }));
+  Teaching& teaching = live->teaching();
+  const double own = teaching.series().radius();
+  ASSERT_LT(own, 1);
+  hover(live, 5, 5);
+  EXPECT_EQ(redCorners(), 0);
+  live->perform("allow-divergence", "on");
+  EXPECT_NEAR(teaching.series().radius(), own, 1e-9) << "its own reflectances at first";
+  live->perform("matrix-factor", "1.2");
+  EXPECT_NEAR(teaching.series().radius(), 1.2 * own, 1e-3);
+  live->perform("matrix-factor", std::to_string(1.1 / own));
+  EXPECT_NEAR(teaching.series().radius(), 1.1, 1e-3);
+  EXPECT_GT(teaching.series().norm(24), teaching.series().norm(12));
+  hover(live, 5, 5);
+  const int growing = redCorners();
+  EXPECT_GE(growing, 4 * 25) << "a bar for each term";
+  live->perform("matrix-factor", "1");
+  hover(live, 5, 5);
+  EXPECT_EQ(redCorners(), 0);
+  live->perform("matrix-reflectance", "1.2");
+  EXPECT_NEAR(teaching.reflectance(0), 1.2, 1e-12);
+  hover(live, 5, 5);
+  EXPECT_GE(redCorners(), 4 * 25);
 }
 
 /// Whether what is under the mouse in the upper left of the lecture's page can be pressed.

@@ -149,12 +149,41 @@ TEST(StatusLine, SaysWhereThePanelHasNoRoom) {
   };
   EXPECT_EQ(line("1").find("noroom"), std::string::npos) << "there is room";
   const std::string twice = line("2");
-  EXPECT_NE(twice.find("nopanel:1,216pxorsmallerscale"), std::string::npos) << twice;
+  EXPECT_NE(twice.find("Tab:thepanel"), std::string::npos) << twice;
   const std::string less = line("1.2");
-  EXPECT_NE(less.find("noroomforthepanel:730pxorasmallerscale"), std::string::npos) << less;
+  EXPECT_NE(less.find("noroomforthepanelbesidethescene:Tablaysitoverit"), std::string::npos) << less;
   viewer->perform("panel", "off");
   viewer.draw();
   EXPECT_FALSE(status()) << "the line goes with the panel, which is not wanted then";
+}
+
+TEST(Panel, LiesOverTheSceneWhereItHasNoRoomBesideIt) {
+  LiveViewer viewer(box(640, 360));
+  ASSERT_TRUE(viewer.untilPhase(SessionPhase::kConverged));
+  viewer->perform("scale", "2");
+  const auto panel = [&] {
+    for (int frame = 0; frame < 3; ++frame) viewer.draw();
+    const ImGuiWindow* window = ImGui::FindWindowByName("panel");
+    return window && window->Active ? window : nullptr;
+  };
+  const auto tab = [&] {
+    viewer->key(258, false);  // GLFW_KEY_TAB
+    return panel();
+  };
+  EXPECT_FALSE(panel());
+  ASSERT_TRUE(tab());
+  EXPECT_EQ(panel()->Rect().GetWidth(), 608);
+  EXPECT_EQ(panel()->Rect().Max.x, 640);
+  EXPECT_FALSE(status());
+  EXPECT_FALSE(tab());
+  EXPECT_TRUE(tab());
+  // Beside the scene again once there is room.
+  viewer->perform("size", "1280x800");
+  ASSERT_TRUE(panel());
+  EXPECT_EQ(panel()->Rect().Max.x, 1280);
+  EXPECT_TRUE(status());
+  EXPECT_FALSE(tab());
+  EXPECT_TRUE(tab());
 }
 
 }  // namespace

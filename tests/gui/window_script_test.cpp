@@ -5,8 +5,10 @@
 #include "gui/support/panel.h"
 #include "gui/support/program_pictures.h"
 #include "gui/support/screen.h"
+#include "gui/support/valid_arguments.h"
 #include "render/display_modes.h"
 #include "solver/modes.h"
+#include "viewer/actions/actions.h"
 
 namespace unshot {
 namespace {
@@ -40,6 +42,32 @@ TEST(WindowScript, PausesStepsResizesOpensAndCloses) {
   EXPECT_EQ(std::pair(large.width, large.height), std::pair(900, 600));
   EXPECT_GT(lightDifference(furnace, large), 0.1);
   EXPECT_GT(lightDifference(picture(folder, "three.png"), picture(folder, "five.png")), 0.01);
+}
+
+// Each action once with an argument and once without, as far as it takes both: over a scene that is there, in
+// the order of the table.
+TEST(WindowScript, EveryActionOfTheTableIsPerformed) {
+  const TempFolder folder;
+  const ProgramResult solved =
+      runProgram(folder, {"solve", std::string(UNSHOT_SOURCE_DIR) + "/assets/two_patches.obj", "--elements",
+                          "300", "--ply", "solution.ply"});
+  ASSERT_EQ(solved.code, 0) << solved.err;
+  writePng(folder / "picture.png", Image8{2, 1, {255, 128, 0, 0, 128, 255}});
+  std::string script = "wait converged\n";
+  for (const Action& action : actions()) {
+    if (action.key == "quit") continue;
+    const std::string key(action.key);
+    const auto valid = validArguments().find(action.key);
+    if (valid != validArguments().end()) script += key + " " + valid->second + "\n";
+    // A solve that was paused converges no more.
+    if (key == "pause") script += "pause off\n";
+    script += "wait converged\n";
+    if (!action.needsArgument())
+      script += key + "\n" + (key == "pause" ? "pause off\n" : "") + "wait converged\n";
+  }
+  runInWindow(folder, script + "quit\n");
+  for (const char* name : {"with.png", "without.png", "with.unshot", "with.mtl", "with.csv"})
+    EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
 }
 
 TEST(WindowScript, EveryModeAndEveryMethodConvergesToTheSame) {

@@ -28,11 +28,15 @@ class LiveViewer {
     std::filesystem::path memory = {};
     KeptSolve kept = {};
     int width = 320, height = 240;
+    /// Pixels per unit of the window system: sizes are in pixels all the same, and so is ImGui's place of the
+    /// mouse, as tests set it.
+    float pixels_per_unit = 1;
   };
 
   explicit LiveViewer(const Options& options)
       : width_(options.width),
         height_(options.height),
+        pixels_per_unit_(options.pixels_per_unit),
         solver_(gl::createContext("osmesa")),
         display_(gl::createContext("osmesa")) {
     display_->makeCurrent();
@@ -76,7 +80,10 @@ class LiveViewer {
   void draw() {
     const double now = wallSeconds();
     ImGuiIO& io = ImGui::GetIO();
-    io.DisplaySize = {static_cast<float>(width_), static_cast<float>(height_)};
+    const float unit = 1 / pixels_per_unit_;
+    io.DisplaySize = {unit * static_cast<float>(width_), unit * static_cast<float>(height_)};
+    io.DisplayFramebufferScale = {pixels_per_unit_, pixels_per_unit_};
+    if (ImGui::IsMousePosValid(&io.MousePos)) io.MousePos = {unit * io.MousePos.x, unit * io.MousePos.y};
     io.DeltaTime = static_cast<float>(std::clamp(now - last_, 1e-4, 0.1));
     last_ = now;
     if (!viewer_->draw(objects_->framebuffer.id(), width_, height_)) return;
@@ -137,6 +144,7 @@ class LiveViewer {
   std::condition_variable condition_;
   bool rung_ = false;
   int width_, height_;
+  float pixels_per_unit_;
   int painted_ = 0;
   double last_ = 0;
   std::string title_;

@@ -8,12 +8,6 @@
 namespace unshot {
 namespace {
 
-/// "KEY on" or "KEY".
-std::pair<std::string, std::string> keyAndSwitch(const std::string& text) {
-  const std::size_t space = std::min(text.find(' '), text.size());
-  return {text.substr(0, space), std::string(trimmed(std::string_view(text).substr(space)))};
-}
-
 /// What stands before the last space, and after it.
 std::pair<std::string, std::string> nameAndLast(const std::string& text) {
   const std::size_t space = text.rfind(' ');
@@ -40,6 +34,11 @@ std::string checkSwitch(const std::string& text) {
 }
 
 void setSwitch(bool& value, const std::string& text) { value = text.empty() ? !value : text == "on"; }
+
+std::pair<std::string, std::string> keyAndSwitch(const std::string& text) {
+  const std::size_t space = std::min(text.find(' '), text.size());
+  return {text.substr(0, space), std::string(trimmed(std::string_view(text).substr(space)))};
+}
 
 std::string checkDo(const std::string& text) {
   const auto [key, on] = keyAndSwitch(text);

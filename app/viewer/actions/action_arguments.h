@@ -43,6 +43,8 @@ std::string checkSwitch(const std::string& text);
 /// "on", "off", or nothing: the other one.
 void setSwitch(bool& value, const std::string& text);
 
+/// "KEY on", "KEY off" or "KEY" alone.
+std::pair<std::string, std::string> keyAndSwitch(const std::string& text);
 /// A key of the plan and "on", "off", or nothing: the other one.
 std::string checkDo(const std::string& text);
 void setDo(DoAnyway& done, const std::string& text);

@@ -22,6 +22,11 @@ std::string checkChannel(const std::string& text) {
   return "'" + text + "' is neither red, green nor blue";
 }
 
+std::string checkFactor(const std::string& text) {
+  const std::optional<double> number = parseNumber(text);
+  return number && *number >= 0.5 && *number <= 10 ? "" : "'" + text + "' is no number from 0.5 to 10";
+}
+
 std::string checkReflectanceOfAll(const std::string& text) {
   const std::optional<double> number = parseNumber(text);
   return number && *number >= 0.5 && *number <= 1.2 ? "" : "'" + text + "' is no number from 0.5 to 1.2";
@@ -82,15 +87,27 @@ std::span<const Action> lectureActions() {
        checkChannel},
       {"allow-divergence",
        "[on|off]",
-       "Let the lecture's matrix have one reflectance for all, also 1 and above",
+       "Let the lecture's matrix have other reflectances, also 1 and above",
        {},
        [](Viewer& v, const std::string& a) { setSwitch(v.teaching().choices.allow_divergence, a); },
        checkSwitch},
+      {"matrix-factor",
+       "F",
+       "Then each group's own reflectance times F, 0.5 to 10",
+       {},
+       [](Viewer& v, const std::string& a) {
+         v.teaching().choices.factor = *parseNumber(a);
+         v.teaching().choices.alike = false;
+       },
+       checkFactor},
       {"matrix-reflectance",
        "R",
-       "That reflectance, 0.5 to 1.2",
+       "Or one reflectance for all groups, 0.5 to 1.2",
        {},
-       [](Viewer& v, const std::string& a) { v.teaching().choices.reflectance = *parseNumber(a); },
+       [](Viewer& v, const std::string& a) {
+         v.teaching().choices.reflectance = *parseNumber(a);
+         v.teaching().choices.alike = true;
+       },
        checkReflectanceOfAll},
   });
   return kActions;

@@ -35,6 +35,13 @@ void runLight(Viewer& viewer, const std::string& text) {
 
 std::span<const Action> materialActions() {
   static constexpr auto kActions = std::to_array<Action>({
+      {"material",
+       "MATERIAL",
+       "Choose the material that the panel shows under \"Materials\"",
+       {},
+       [](Viewer& v, const std::string& a) { v.ui().material = v.edits().find(a); },
+       nullptr,
+       true},
       {"reflectance",
        "MATERIAL r,g,b",
        "Give a material another reflectance; the solve goes on with it",

@@ -156,6 +156,26 @@ std::span<const Action> solveActions() {
          return a == "auto" || parseSky(a) ? ""
                                            : "'" + a + "' is no sky r,g,b of numbers from 0 on, nor auto";
        }},
+      {"emit",
+       "both|front",
+       "Solve again with lights that emit on both sides, or on their front alone",
+       {},
+       [](Viewer& v, const std::string& a) {
+         v.ui().options.emit_front_only = a == "front";
+         v.restart();
+       },
+       [](const std::string& a) {
+         return a == "both" || a == "front" ? std::string() : "'" + a + "' is neither both nor front";
+       }},
+      {"keep",
+       "MB",
+       "Solve again with as much memory for form factors that are kept [MB]",
+       {},
+       [](Viewer& v, const std::string& a) {
+         v.ui().options.kept_bytes = whole(a) * 1'000'000;
+         v.restart();
+       },
+       checkWhole<0, 1'000'000>},
       {"do",
        "KEY [on|off]",
        "Solve again with this done that the plan would leave out, or without",

@@ -8,17 +8,42 @@
 
 #include "base/parse.h"
 #include "viewer/actions/action_arguments.h"
+#include "viewer/panels/lecture_panel.h"
+#include "viewer/panels/sections.h"
 #include "viewer/viewer.h"
 
 namespace unshot {
+namespace {
+
+std::string checkSection(const std::string& text) {
+  const auto [key, on] = keyAndSwitch(text);
+  const std::string wrong = checkKey(panelSections(), false, key);
+  return wrong.empty() ? checkSwitch(on) : wrong;
+}
+
+void runPanel(Viewer& viewer, const std::string& text) {
+  ViewerState& ui = viewer.ui();
+  const bool room = panelHasRoom(viewer);
+  bool shown = ui.panel && (room || ui.panel_over);
+  setSwitch(shown, text);
+  ui.panel = shown;
+  ui.panel_over = shown && !room;
+}
+
+void runSection(Viewer& viewer, const std::string& text) {
+  const auto [key, on] = keyAndSwitch(text);
+  openSection(viewer.ui(), key, on.empty() ? std::nullopt : std::optional(on == "on"));
+}
+
+}  // namespace
 
 std::span<const Action> windowActions() {
   static constexpr auto kActions = std::to_array<Action>({
       {"panel",
        "[on|off]",
-       "Show or hide the panel",
+       "Show or hide the panel; over the scene, where there is no room beside it",
        {GLFW_KEY_TAB, false, "Tab"},
-       [](Viewer& v, const std::string& a) { setSwitch(v.ui().panel, a); },
+       runPanel,
        checkSwitch},
       {"clean",
        "[on|off]",
@@ -32,6 +57,12 @@ std::span<const Action> windowActions() {
        {},
        [](Viewer& v, const std::string& a) { setSwitch(v.ui().status, a); },
        checkSwitch},
+      {"section",
+       "KEY [on|off]",
+       "Open or close a section of the panel, and scroll to it: solve, display, messages ...",
+       {},
+       runSection,
+       checkSection},
       {"notes",
        "[on|off]",
        "Show or hide what is doubtful about the scene, in the panel",

@@ -100,7 +100,8 @@ void ratioLine(const SessionState& state, const std::vector<glm::dvec3>& power) 
             figureText(largest(state.radius_upper)) + ")";
   }
   line("Last ratio", text,
-       "The power of the last bounce over that of the one before, in the channel where it falls least. It "
+       "\u2211 A B_k / \u2211 A B_(k\u22121) of the last bounce k, its power over that of the one before, in "
+       "the channel where it falls least. It "
        "tends to "
        "the spectral radius of M, which bounds bracket: what each further bounce leaves of the light");
 }
@@ -136,11 +137,14 @@ double bounceRatio(const std::vector<glm::dvec3>& power, std::size_t k) {
 }
 
 std::string bounceText(const std::vector<glm::dvec3>& power, std::size_t k) {
-  if (k == 0) return "E, the light emitted: " + figureText(sum(power[0])) + " W over the three channels";
+  if (k == 0)
+    return "B_0 = E, the light emitted: \u2211 A E = " + figureText(sum(power[0])) +
+           " W over the three channels";
   const double emitted = sum(power[0]);
-  return "Bounce " + std::to_string(k) + ": " + percentText(emitted > 0 ? sum(power[k]) / emitted : 0) +
-         " of the light emitted, " + figureText(bounceRatio(power, k)) + " times " +
-         (k == 1 ? "E" : "bounce " + std::to_string(k - 1));
+  const std::string n = std::to_string(k);
+  return "Bounce " + n + ", B_" + n + (k == 1 ? " = M E: " : " = M^" + n + " E: ") + "\u2211 A B_" + n +
+         " is " + percentText(emitted > 0 ? sum(power[k]) / emitted : 0) + " of the light emitted, " +
+         figureText(bounceRatio(power, k)) + " times " + (k == 1 ? "E" : "bounce " + std::to_string(k - 1));
 }
 
 void bouncesSection(Viewer& viewer) {

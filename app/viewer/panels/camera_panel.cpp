@@ -79,7 +79,9 @@ void cameraSection(Viewer& viewer) {
   if (ImGui::Button("Copy", {width, 0}))
     viewer.perform("copy-camera", ImGui::GetIO().KeyShift ? "options" : "script");
   tooltip(
-      "The camera as lines of a script. With Shift: as options of unshot solve (--eye, --at, --up, --fov)");
+      "The camera as lines of a script. With Shift: as options of unshot solve (--eye, --at, --up, --fov), "
+      "which "
+      "draws in perspective");
   ImGui::EndDisabled();
   ImGui::Spacing();
 }

@@ -181,9 +181,13 @@ void buildFalseColourLegend(const Viewer& viewer, LowerEdge& edge) {
   const bool white = mode.quantity == Quantity::kUnshot && !mode.false_colour;
   if (!viewer.shownSnapshot() || !(mode.false_colour || white)) return;
   const double top = 1 / (viewer.exposure() * std::exp2(view.exposure_ev));
-  const float em = ImGui::GetFontSize(), width = std::min(kBarWidth * em, edge.scene_width - 6 * em);
+  const float em = ImGui::GetFontSize(), width = std::min(kBarWidth * em, edge.sceneWidth() - 6 * em);
   if (!(width > 4 * em)) return;
-  ImGui::SetNextWindowPos({edge.scene_width - 0.7f * em, edge.right - 0.7f * em}, ImGuiCond_Always, {1, 1});
+  const float right = edge.sceneWidth(), gap = 0.7f * em;
+  // With a letter's width on either side for numbers, and its borders.
+  const float whole = width + 2 * em + 2 * ImGui::GetStyle().WindowPadding.x + 2 * gap;
+  const float bottom = edge.above(right - whole, right);
+  ImGui::SetNextWindowPos({right - gap, bottom - gap}, ImGuiCond_Always, {1, 1});
   ImGui::SetNextWindowBgAlpha(0.85f);
   ImGui::Begin("false colours", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
@@ -204,8 +208,7 @@ void buildFalseColourLegend(const Viewer& viewer, LowerEdge& edge) {
     drawTicks(ticksOf(mode, how, top), mode.diverging, at, width, height);
     ImGui::Dummy({width + 2 * em, 1.4f * height + em});
   }
-  edge.right_width = ImGui::GetWindowWidth() + 0.7f * em;
-  edge.right -= ImGui::GetWindowHeight() + 0.7f * em;
+  edge.take(right - whole, right, bottom - gap - ImGui::GetWindowHeight());
   ImGui::End();
 }
 

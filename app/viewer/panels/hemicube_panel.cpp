@@ -41,16 +41,16 @@ void pixelTip(Viewer& viewer, std::uint32_t x, std::uint32_t y) {
   const std::uint32_t patch = look.patchAt(*pixel);
   std::string text =
       patch == kNone ? "Nothing: what leaves here escapes" : "Patch " + patchText(*look.mesh, patch);
-  text += "\nThis pixel: \u0394F = " + channelText((*look.delta)[*pixel]);
+  text += "\nThis pixel: \u0394G = " + channelText((*look.delta)[*pixel]);
   const double share = teaching.shares()[patch == kNone ? look.mesh->patch_count : patch];
-  text += "\nAll of its pixels: F = " + channelText(share);
+  text += "\nAll of its pixels: G_ij = " + channelText(share);
   const PatchInsight* known = teaching.patch();
   if (known && known->patch == look.patch && !known->sent.empty()) {
     const double solved = patch == kNone ? known->escape : static_cast<double>(known->sent[patch]);
-    text += "\nThe solver's F: " + channelText(solved);
+    text += "\nThe solver's G_ij: " + channelText(solved);
   }
   tooltip(text);
-  if (patch != kNone) teaching.markPatch(patch, false);
+  if (patch != kNone) teaching.markPatch(patch, false, true);
 }
 
 void cross(Viewer& viewer, float side) {
@@ -76,7 +76,7 @@ void sums(const Teaching& teaching, float side) {
   double sum = 0;
   for (const double delta : *look.delta) sum += delta;
   const double escape = teaching.shares().back();
-  const std::string arrives = "\u2211\u0394F = " + figureText(sum - escape),
+  const std::string arrives = "\u2211\u0394G = " + figureText(sum - escape),
                     escapes = "escapes " + figureText(escape);
   std::string text = escape > 0 ? arrives + ", " + escapes : arrives;
   // ImGui's own lines end after any point or comma, also within a number.
@@ -113,15 +113,16 @@ void hemicubeContent(Viewer& viewer, float side) {
   }
   cross(viewer, side);
   if (teaching.look()) sums(teaching, side);
-  teaching.markPatch(patch, true);
+  teaching.markPatch(patch, true, false);
 }
 
-void buildHemicube(Viewer& viewer, const LowerEdge& edge) {
+void buildHemicube(Viewer& viewer, LowerEdge& edge) {
   if (!viewer.teaching().choices.hemicube || lectureShowsHemicube(viewer)) return;
   const float em = ImGui::GetFontSize(), gap = 0.7f * em;
-  const float bottom = edge.aboveLeft((kSide + 3) * em);
-  const float room = std::min(edge.scene_width - 4 * em, bottom - gap - kLines * em);
-  const float side = std::floor(std::min({kSide * em, room, kMostOfScene * std::min(edge.left, edge.right)}));
+  const float widest = std::min((kSide + 3) * em, edge.sceneWidth());
+  const float bottom = edge.above(0, widest);
+  const float room = std::min(edge.sceneWidth() - 4 * em, bottom - edge.top() - gap - kLines * em);
+  const float side = std::floor(std::min({kSide * em, room, kMostOfScene * bottom}));
   if (side < kLeast * em) return;
   ImGui::SetNextWindowPos({gap, bottom - gap}, ImGuiCond_Always, {0, 1});
   ImGui::SetNextWindowBgAlpha(0.94f);
@@ -141,6 +142,7 @@ void buildHemicube(Viewer& viewer, const LowerEdge& edge) {
   ImGui::Dummy({side, 0});
   choosePicture(viewer, side);
   hemicubeContent(viewer, side);
+  edge.take(0, ImGui::GetWindowWidth() + 2 * gap, bottom - gap - ImGui::GetWindowHeight());
   ImGui::End();
 }
 

@@ -7,7 +7,7 @@
 namespace unshot {
 
 /// Its window over the scene at the lower left, where it is open and finds room.
-void buildHemicube(Viewer& viewer, const LowerEdge& edge);
+void buildHemicube(Viewer& viewer, LowerEdge& edge);
 
 /// The part of the panel that opens it and the lecture.
 void teachingSection(Viewer& viewer);

@@ -70,13 +70,10 @@ void cellTip(Viewer& viewer, const std::vector<double>& values, const std::strin
   Teaching& teaching = viewer.teaching();
   const GatheredMatrix& m = *teaching.insight()->matrix;
   const Mesh& mesh = *viewer.state().snapshot->mesh;
-  const int channel = teaching.choices.channel;
   std::string text = "from j: " + groupText(m, mesh, j) + "\nto i: " + groupText(m, mesh, i) + "\n";
   text += name + " there: " + channelText(values[i * m.size() + j]);
-  const double r =
-      teaching.choices.allow_divergence ? teaching.choices.reflectance : m.groups[i].reflectance[channel];
-  text += "\nR_i = " + channelText(r) + ", G_ij = " + channelText(m.factor(i, j)) + ", R_i G_ij = " +
-          channelText(teaching.choices.allow_divergence ? r * m.factor(i, j) : m.at(i, j)[channel]);
+  text += "\nR_i = " + channelText(teaching.reflectance(i)) + ", G_ij = " + channelText(m.factor(i, j)) +
+          ", R_i G_ij = " + channelText(teaching.transport(i, j));
   if (!m.groups[j].sends) text += "\nj holds no light: what it would send was not computed";
   tooltip(text);
   teaching.markGroup(static_cast<std::uint32_t>(j), true);
@@ -163,23 +160,44 @@ void choosePower(Viewer& viewer) {
   tooltip("I + M + \u2026 + M^k, which tends to (I \u2212 M)\u207b\u00b9, instead of M^k");
 }
 
+std::string twoDigits(double value) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%.2f", value);
+  return text;
+}
+
 void chooseReflectance(Viewer& viewer) {
   const TeachingChoices& choices = viewer.teaching().choices;
   bool on = choices.allow_divergence;
   if (ImGui::Checkbox("Allow divergence", &on)) viewer.perform("allow-divergence", on ? "on" : "off");
   tooltip(
-      "Gives every group the same reflectance, also 1 and more, to see when the series grows. In this small "
-      "matrix alone: the solve stays as it is");
+      "Other reflectances, also 1 and more, to see when the series grows. In this small matrix alone: the "
+      "solve stays as it is, with 1 at most");
   if (!choices.allow_divergence) return;
+  const bool beside = ImGui::GetContentRegionAvail().x > kWideLine * ImGui::GetFontSize();
+  if (beside) ImGui::SameLine();
+  if (ImGui::RadioButton("own R", !choices.alike)) viewer.perform("matrix-factor", twoDigits(choices.factor));
+  tooltip("Each group's own R times a factor");
   ImGui::SameLine();
-  float r = static_cast<float>(choices.reflectance);
+  if (ImGui::RadioButton("every R", choices.alike))
+    viewer.perform("matrix-reflectance", twoDigits(choices.reflectance));
+  tooltip("The same R for all groups");
+  if (beside) ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::SliderFloat("##reflectance", &r, 0.5f, 1.2f, "every R = %.2f", ImGuiSliderFlags_AlwaysClamp)) {
-    char text[16];
-    std::snprintf(text, sizeof text, "%.2f", static_cast<double>(r));
-    viewer.perform("matrix-reflectance", text);
+  if (choices.alike) {
+    float r = static_cast<float>(choices.reflectance);
+    if (ImGui::SliderFloat("##reflectance", &r, 0.5f, 1.2f, "every R = %.2f", ImGuiSliderFlags_AlwaysClamp))
+      viewer.perform("matrix-reflectance", twoDigits(static_cast<double>(r)));
+    tooltip("R of every group in M = R G, 0.5 to 1.2: above 1 the terms of the series may grow");
+  } else {
+    float factor = static_cast<float>(choices.factor);
+    if (ImGui::SliderFloat("##factor", &factor, 0.5f, 10, "own R \u00d7 %.2f",
+                           ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+      viewer.perform("matrix-factor", twoDigits(static_cast<double>(factor)));
+    tooltip(
+        "f in M = f R G, 0.5 to 10, R being each group's own: the terms of the series grow once f times the "
+        "spectral radius is above 1");
   }
-  tooltip("R of every group in M = R G, 0.5 to 1.2: above 1 the terms of the series may grow");
 }
 
 /// Bars of the norms of M^k, logarithmic; red where the series has no sum.
@@ -239,6 +257,7 @@ void radiusLine(Viewer& viewer) {
   if (endless) ImGui::PushStyleColor(ImGuiCol_Text, kRed);
   wrapped("Spectral radius of M: " + figureText(series.radius()) + std::string(termsText(series.terms())));
   if (endless) ImGui::PopStyleColor();
+  tooltip("The largest |\u03bb| of M v = \u03bb v: M^k tends to 0 where it is below 1");
 }
 
 /// How near the partial sum is to what the solve has.

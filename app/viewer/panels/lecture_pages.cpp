@@ -76,7 +76,7 @@ void equationRows(const PatchInsight& p) {
       "view");
   row("f = R / \u03c0", p.reflectance / std::numbers::pi, "1/sr",
       "BRDF of a diffuse surface: the same in all directions");
-  row("A_i B_i", p.area * p.radiosity, "W", "Power that leaves the patch");
+  row("A_i B_i", p.area * p.radiosity, "W", "A_i B_i: power that leaves the patch");
   ImGui::EndTable();
 }
 
@@ -90,7 +90,7 @@ void sources(Viewer& viewer, const PatchInsight& p) {
   ImGui::TableNextColumn();
   ImGui::TextUnformatted("patch j");
   tooltip(
-      "Those that most of the light received at patch i comes from; framed in the picture while the mouse is "
+      "Those that most of the light received at patch i comes from; lit in the picture while the mouse is "
       "over one");
   struct Column {
     const char *name, *tip;
@@ -113,15 +113,18 @@ void sources(Viewer& viewer, const PatchInsight& p) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(sky ? "the sky" : patchText(mesh, source.patch).c_str());
-    if (!sky && ImGui::IsItemHovered()) viewer.teaching().markPatch(source.patch, true);
+    if (!sky && ImGui::IsItemHovered()) viewer.teaching().markPatch(source.patch, true, true);
     ImGui::TableNextColumn();
     rightAligned(channelText(source.factor));
+    tooltip(kColumns[0].tip);
     ImGui::TableNextColumn();
     rightAligned(channelText(source.radiosity.y));
+    tooltip(kColumns[1].tip);
     ImGui::TableNextColumn();
     const glm::dvec3 all = p.gathered, part = source.factor * source.radiosity;
     const double sum = all.x + all.y + all.z;
     rightAligned(percentText(sum > 0 ? (part.x + part.y + part.z) / sum : 0));
+    tooltip(kColumns[2].tip);
   }
   ImGui::EndTable();
 }

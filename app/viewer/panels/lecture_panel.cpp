@@ -67,15 +67,33 @@ bool lectureShowsHemicube(const Viewer& viewer) {
   return choices.lecture && choices.page == LecturePage::kShots;
 }
 
-BesideScene besideScene(const Viewer& viewer, int width) {
-  if (viewer.ui().clean) return {0, 0};
+namespace {
+
+/// Without regard to whether the panel is wanted.
+BesideScene besideSceneWithPanel(const Viewer& viewer, int width) {
   const double scale = viewer.scale();
-  const int panel = panelWidth(viewer.ui(), scale, width);
-  if (!viewer.teaching().choices.lecture) return {panel, 0};
+  const int panel = width >= leastWindowWithPanel(scale) ? panelWidth(scale) : 0;
+  if (!viewer.teaching().choices.lecture) return {panel, 0, 0};
   const double lines = std::min<double>(kLeastWidth * scale, width - 1);
   const int lecture =
       static_cast<int>(std::lround(std::min(kWidth * scale, std::max(lines, kMostOfWindow * width))));
-  return {width - panel - lecture >= kLeastScene * scale ? panel : 0, lecture};
+  return {width - panel - lecture >= kLeastScene * scale ? panel : 0, lecture, 0};
+}
+
+}  // namespace
+
+BesideScene besideScene(const Viewer& viewer, int width) {
+  const ViewerState& ui = viewer.ui();
+  if (ui.clean) return {};
+  BesideScene out = besideSceneWithPanel(viewer, width);
+  if (ui.panel && ui.panel_over && out.panel == 0) return {0, 0, std::min(panelWidth(viewer.scale()), width)};
+  if (!ui.panel) out.panel = 0;
+  return out;
+}
+
+bool panelHasRoom(const Viewer& viewer) {
+  const auto width = static_cast<int>(ImGui::GetIO().DisplaySize.x);
+  return width <= 0 || besideSceneWithPanel(viewer, width).panel > 0;  // before the first frame: it may
 }
 
 void buildLecture(Viewer& viewer, int left, int width) {
@@ -98,9 +116,13 @@ void buildLectureMarks(Viewer& viewer, int scene_width) {
   teaching.beginMarks();
   if (teaching.marks().empty()) return;
   forEachMarkedPicture(viewer, scene_width, [&](ImDrawList& list, const MarkedPicture& picture) {
-    for (const auto& mark : teaching.marks())
-      markOutline(list, picture, mark->outline,
-                  mark->source ? IM_COL32(255, 176, 64, 255) : IM_COL32(96, 190, 255, 255));
+    for (const auto& mark : teaching.marks()) {
+      const auto colour = [&](int alpha) {
+        return mark->source ? IM_COL32(255, 176, 64, alpha) : IM_COL32(96, 190, 255, alpha);
+      };
+      markFilled(list, picture, mark->lit, colour(120));
+      markOutline(list, picture, mark->outline, colour(255));
+    }
   });
 }
 

@@ -31,6 +31,10 @@ struct MarkedPicture {
 void forEachMarkedPicture(const Viewer& viewer, int scene_width,
                           const std::function<void(ImDrawList&, const MarkedPicture&)>& draw);
 
+/// Fills triangles, three corners each, so that what lies below is still seen.
+void markFilled(ImDrawList& list, const MarkedPicture& picture, std::span<const glm::vec3> corners,
+                ImU32 colour);
+
 void markOutline(ImDrawList& list, const MarkedPicture& picture,
                  std::span<const std::pair<glm::vec3, glm::vec3>> edges, ImU32 colour);
 

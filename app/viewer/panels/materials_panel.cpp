@@ -38,14 +38,14 @@ void swatch(const Material& m) {
 }
 
 void chooseMaterial(Viewer& viewer, const MaterialEdits::Materials& materials) {
-  std::size_t& chosen = viewer.ui().material;
+  const std::size_t chosen = viewer.ui().material;
   label("Material", "What surfaces of the scene are made of");
   if (!ImGui::BeginCombo("##material", materials[chosen].name.c_str(), ImGuiComboFlags_HeightLarge)) return;
   for (std::size_t m = 0; m < materials.size(); ++m) {
     ImGui::PushID(static_cast<int>(m));
     swatch(materials[m]);
     const std::string text = materials[m].name + (materials[m].emits() ? "  (light)" : "");
-    if (ImGui::Selectable(text.c_str(), m == chosen)) chosen = m;
+    if (ImGui::Selectable(text.c_str(), m == chosen)) viewer.perform("material", materials[m].name);
     ImGui::PopID();
   }
   ImGui::EndCombo();
@@ -68,14 +68,12 @@ void editMaterial(Viewer& viewer, const Material& m) {
   if (ImGui::Checkbox("##light", &on)) viewer.perform("light", m.name + (on ? " on" : " off"));
   if (!m.emits()) return;
   const double strength = strengthOf(m.emission);
-  ImGui::SameLine();
-  ImGui::SetNextItemWidth(-1);
+  label("Colour", "Of its emission, E over its strongest channel: 0 to 1");
   Colour colour = floats(m.emission / strength);
   const bool edited = editColour("##colour", colour);
   // A colour alone: darker is for the slider, and black is none.
   if (const double most = strengthOf(doubles(colour)); edited && most > 0)
     viewer.perform("emission", m.name + " " + colourText(strength / most * doubles(colour)));
-  tooltip("Colour of its emission, E over its strongest channel: 0 to 1");
   label("Strength", "Emission E [W/m\u00b2] of its strongest channel: what leaves a square metre of it");
   float value = static_cast<float>(strength);
   if (ImGui::SliderFloat("##strength", &value, kLeastStrength, kMostStrength, "%.3g W/m\u00b2",

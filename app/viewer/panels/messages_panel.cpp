@@ -5,7 +5,7 @@
 
 namespace unshot {
 
-void messagesSection(const Viewer& viewer) {
+void messagesSection(Viewer& viewer) {
   const auto& log = viewer.messages().log();
   if (log.empty()) return;
   const std::string title = "Messages (" + countText(log.size()) + ")###messages";

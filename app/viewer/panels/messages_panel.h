@@ -6,6 +6,6 @@
 namespace unshot {
 
 /// Nothing where nothing was said.
-void messagesSection(const Viewer& viewer);
+void messagesSection(Viewer& viewer);
 
 }  // namespace unshot

@@ -19,21 +19,37 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowF
                                     ImGuiWindowFlags_NoFocusOnAppearing;
 constexpr const char* kHint = "Drag to orbit, click to pick, H for help, Ctrl+P for all actions";
 
-void errorWindow(Viewer& viewer, float middle) {
-  const Error& error = *viewer.error();
+/// The lines of the message that is to be read.
+struct ErrorText {
+  std::string where, what, advice;
+};
+
+ErrorText errorText(const Error& error, float width) {
+  return {brokenText(error.where(), width), brokenText(error.what(), width),
+          error.advice().empty() ? "" : brokenText("Try: " + error.advice(), width)};
+}
+
+/// Of its window.
+float errorHeight(const ErrorText& text) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  float height = 2 * style.WindowPadding.y + ImGui::GetFrameHeight();
+  for (const std::string& part : {text.where, text.what, text.advice}) {
+    if (!part.empty()) height += ImGui::CalcTextSize(part.c_str()).y + style.ItemSpacing.y;
+  }
+  return height;
+}
+
+void errorWindow(Viewer& viewer, const ErrorText& text, float middle) {
   const float size = ImGui::GetFontSize();
   ImGui::SetNextWindowPos({middle, size}, ImGuiCond_Always, {0.5f, 0});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.24f, 0.09f, 0.08f, 0.96f));
   ImGui::PushStyleColor(ImGuiCol_Border, ImVec4(0.75f, 0.3f, 0.25f, 1));
   ImGui::Begin("message", nullptr, kFixed);
-  const float width = std::min(2 * middle - 4 * size, 36 * size);
-  if (!error.where().empty()) wrapped(error.where(), width);
-  wrapped(error.what(), width);
-  if (!error.advice().empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.9f, 0.75f, 0.65f, 1));
-    wrapped("Try: " + error.advice(), width);
-    ImGui::PopStyleColor();
-  }
+  if (!text.where.empty()) ImGui::TextUnformatted(text.where.c_str());
+  ImGui::TextUnformatted(text.what.c_str());
+  ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.9f, 0.75f, 0.65f, 1));
+  if (!text.advice.empty()) ImGui::TextUnformatted(text.advice.c_str());
+  ImGui::PopStyleColor();
   const std::size_t more = viewer.messages().waiting();
   if (ImGui::Button(more > 0 ? "Next###close" : "Close###close")) viewer.perform("dismiss");
   tooltip("Esc");
@@ -68,10 +84,8 @@ bool tasksWindow(Viewer& viewer, float middle) {
   return true;
 }
 
-/// Between the message above and the notice below.
-void changedWindow(Viewer& viewer, float middle) {
-  const float size = ImGui::GetFontSize();
-  ImGui::SetNextWindowPos({middle, size}, ImGuiCond_Always, {0.5f, 0});
+void changedWindow(Viewer& viewer, float middle, float top) {
+  ImGui::SetNextWindowPos({middle, std::max(top, ImGui::GetFontSize())}, ImGuiCond_Always, {0.5f, 0});
   ImGui::SetNextWindowBgAlpha(0.94f);
   ImGui::Begin("changed", nullptr, kFixed);
   ImGui::AlignTextToFramePadding();
@@ -95,18 +109,26 @@ void lineOverScene(const char* id, const std::string& text, ImVec2 at, ImVec2 pi
 
 /// Files that were written and the like, above the lower edge. Where they stay there is a button to close
 /// them.
-void noticeWindow(Viewer& viewer, const std::vector<std::string>& lines, const ImVec2& at, float room) {
+void noticeWindow(Viewer& viewer, const std::vector<std::string>& lines, const LowerEdge& edge) {
+  const float middle = edge.sceneWidth() / 2, size = ImGui::GetFontSize();
+  const float room = std::max(2 * middle, 12 * size) - 3 * size;
   const bool stays = viewer.messages().stays();
   std::vector<std::string> broken;
-  float widest = 0;
+  float widest = 0, height = 2 * ImGui::GetStyle().WindowPadding.y;
   const float button = stays ? ImGui::CalcTextSize("\u00d7").x + 3 * ImGui::GetStyle().FramePadding.x : 0;
   for (const std::string& one : lines) {
     broken.push_back(brokenText(one, room - button));
-    widest = std::max(widest, ImGui::CalcTextSize(broken.back().c_str()).x);
+    const ImVec2 text = ImGui::CalcTextSize(broken.back().c_str());
+    widest = std::max(widest, text.x);
+    height += text.y + ImGui::GetStyle().ItemSpacing.y;
   }
   // Beside the lecture the scene may be narrower than a word.
   const float half = (widest + button) / 2 + ImGui::GetStyle().WindowPadding.x + 2;
-  ImGui::SetNextWindowPos({std::max(at.x, half), at.y}, ImGuiCond_Always, {0.5f, 1});
+  const float x = std::max(middle, half), gap = 0.7f * size;
+  // Above legends and the like; over them where there is no room for both.
+  float y = edge.above(x - half, x + half) - gap;
+  if (y - height < edge.top()) y = edge.bottom() - gap;
+  ImGui::SetNextWindowPos({x, y}, ImGuiCond_Always, {0.5f, 1});
   ImGui::SetNextWindowBgAlpha(0.85f);
   ImGui::Begin("notice", nullptr, kFixed | (stays ? 0 : ImGuiWindowFlags_NoInputs));
   ImGui::BeginGroup();
@@ -122,12 +144,20 @@ void noticeWindow(Viewer& viewer, const std::vector<std::string>& lines, const I
 
 }  // namespace
 
-void buildOverlays(Viewer& viewer, int scene_width, float bottom, bool notices, bool framing) {
+float belowNames(const Viewer& viewer) {
+  const float name =
+      ImGui::GetFontSize() + 2 * ImGui::GetStyle().WindowPadding.y + ImGui::GetTextLineHeight();
+  if (viewer.state().rival) return name + ImGui::GetTextLineHeightWithSpacing();
+  return viewer.referencePicture() && !viewer.ui().picture_difference ? name : 0;
+}
+
+void buildOverlays(Viewer& viewer, const LowerEdge& edge, bool covered, bool notices, bool framing) {
   const float size = ImGui::GetFontSize();
   const float height = ImGui::GetIO().DisplaySize.y;
-  const float middle = static_cast<float>(scene_width) / 2;
+  const float middle = edge.sceneWidth() / 2;
+  const auto scene_width = static_cast<int>(edge.sceneWidth());
   const SessionState& state = viewer.state();
-  if (!viewer.ui().clean) {
+  if (!viewer.ui().clean && !covered) {
     buildMarks(viewer, scene_width);
     buildRaceLabels(viewer, scene_width);
   }
@@ -145,19 +175,25 @@ void buildOverlays(Viewer& viewer, int scene_width, float bottom, bool notices, 
     lineOverScene("dark", brokenText(dark, std::min(2 * middle - 3 * size, 30 * size)), {middle, height / 2},
                   {0.5f, 0.5f});
   }
+  const bool prompt = viewer.ui().prompt.open();
+  float top = 1.5f * size;
   if (viewer.error()) {
-    errorWindow(viewer, middle);
+    const ErrorText text = errorText(*viewer.error(), std::min(2 * middle - 4 * size, 36 * size));
+    const float below = 1.5f * size + errorHeight(text);
+    // Where both have no room, the message waits until the prompt is closed.
+    const bool fits = !prompt || below + leastPromptHeight() <= height;
+    if (fits) errorWindow(viewer, text, middle);
+    if (fits) top = below;
   } else if (viewer.ui().help) {
     buildHelp(middle);
   }
-  buildPrompt(viewer, middle);
-  if (viewer.sceneChanged() && !viewer.error() && state.phase != SessionPhase::kLoading)
-    changedWindow(viewer, middle);
+  buildPrompt(viewer, middle, top);
+  if (viewer.sceneChanged() && !viewer.error() && !prompt && state.phase != SessionPhase::kLoading)
+    changedWindow(viewer, middle, edge.top());
   if (!notices) return;
   std::vector<std::string> lines = viewer.messages().lines();
   if (lines.empty() && viewer.ui().hint) lines.push_back(kHint);
-  if (!lines.empty())
-    noticeWindow(viewer, lines, {middle, bottom - 0.7f * size}, std::max(2 * middle, 12 * size) - 3 * size);
+  if (!lines.empty()) noticeWindow(viewer, lines, edge);
 }
 
 }  // namespace unshot

@@ -184,7 +184,7 @@ void pickedSection(Viewer& viewer) {
        "where the "
        "corners of its polygons run counter-clockwise");
   line("In the file", "line " + std::to_string((*viewer.state().facts->surface_lines)[point.pick.surface]),
-       "Where the scene's file has one of the surface's polygons");
+       "Line number, counted from 1, where the scene's file has one of the surface's polygons");
   line("Position", positionText(point.probe.position),
        "x, y and z in the coordinates of the scene's file [m]");
   cells(point, *snapshot.mesh);
@@ -246,6 +246,19 @@ void markOutline(ImDrawList& list, const MarkedPicture& picture,
     list.AddLine(*from, *to, kShade, 0.2f * size);
     list.AddLine(*from, *to, colour, 0.1f * size);
   }
+}
+
+void markFilled(ImDrawList& list, const MarkedPicture& picture, std::span<const glm::vec3> corners,
+                ImU32 colour) {
+  // Softened edges would show where triangles meet.
+  const ImDrawListFlags flags = list.Flags;
+  list.Flags &= ~ImDrawListFlags_AntiAliasedFill;
+  for (std::size_t k = 0; k + 2 < corners.size(); k += 3) {
+    const auto a = picture.at(glm::dvec3(corners[k])), b = picture.at(glm::dvec3(corners[k + 1])),
+               c = picture.at(glm::dvec3(corners[k + 2]));
+    if (a && b && c) list.AddTriangleFilled(*a, *b, *c, colour);
+  }
+  list.Flags = flags;
 }
 
 void buildMarks(const Viewer& viewer, int scene_width) {

@@ -233,20 +233,24 @@ void scenesPrompt(Viewer& viewer, float height) {
   if (wanted) attempt(prompt, [&] { enterScene(viewer, found[*wanted]); });
 }
 
+/// The line, the path or nothing above it, two lines of help below.
+float promptHeightBesideRows() {
+  return 5 * ImGui::GetFrameHeightWithSpacing() + 2 * ImGui::GetStyle().WindowPadding.y;
+}
+
 }  // namespace
 
-void buildPrompt(Viewer& viewer, float middle) {
+float leastPromptHeight() { return promptHeightBesideRows() + 3 * ImGui::GetTextLineHeightWithSpacing(); }
+
+void buildPrompt(Viewer& viewer, float middle, float top) {
   Prompt& prompt = viewer.ui().prompt;
   if (!prompt.open()) return;
-  const ImGuiStyle& style = ImGui::GetStyle();
   const float size = ImGui::GetFontSize();
   const float width = std::min(2 * middle - size, kPromptWidth * size);
-  // The line, the path or nothing above it, two lines of help below.
-  const float others = 6 * ImGui::GetFrameHeightWithSpacing() + 2 * style.WindowPadding.y;
   const float height =
-      std::clamp(ImGui::GetIO().DisplaySize.y - others, 3 * ImGui::GetTextLineHeightWithSpacing(),
-                 kRows * ImGui::GetTextLineHeightWithSpacing());
-  ImGui::SetNextWindowPos({middle, 1.5f * size}, ImGuiCond_Always, {0.5f, 0});
+      std::clamp(ImGui::GetIO().DisplaySize.y - top - promptHeightBesideRows(),
+                 3 * ImGui::GetTextLineHeightWithSpacing(), kRows * ImGui::GetTextLineHeightWithSpacing());
+  ImGui::SetNextWindowPos({middle, top}, ImGuiCond_Always, {0.5f, 0});
   ImGui::SetNextWindowSize({width, 0});
   ImGui::SetNextWindowBgAlpha(0.97f);
   ImGui::Begin("prompt", nullptr,

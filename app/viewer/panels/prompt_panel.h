@@ -5,7 +5,9 @@ namespace unshot {
 
 class Viewer;
 
-/// Nothing where no prompt is open. `middle` of the scene's width [px].
-void buildPrompt(Viewer& viewer, float middle);
+/// Nothing where no prompt is open. `middle` of the scene's width, and the y that it begins at [px].
+void buildPrompt(Viewer& viewer, float middle, float top);
+/// How high it is with a few rows [px].
+float leastPromptHeight();
 
 }  // namespace unshot

@@ -98,7 +98,9 @@ void raceStandings(const SessionState& state) {
   for (const LaneState* lane : lanes) {
     dot(raceColour(lane != &state));
     line(modeTitle(*lane).c_str(), solverText(lane->measures),
-         "Its curve has the colour of the dot. At the right its solver's error");
+         "Its curve has the colour of the dot. At the right its solver's error, RMS of B \u2212 B* over RMS "
+         "of "
+         "B* \u2212 E [%]");
   }
 }
 

@@ -71,14 +71,20 @@ void divider(Viewer& viewer, const ReferencePicture& picture, float width, float
   if (width - x > room(picture.name())) name("wipe-theirs", picture.name(), x + 0.8f * em, 0);
 }
 
-void figure(const ReferencePicture& picture, bool difference, float width, float bottom) {
-  const float em = ImGui::GetFontSize();
-  ImGui::SetNextWindowPos({width - 0.7f * em, bottom - 0.7f * em}, ImGuiCond_Always, {1, 1});
+void figure(const ReferencePicture& picture, bool difference, LowerEdge& edge) {
+  const float em = ImGui::GetFontSize(), gap = 0.7f * em, width = edge.sceneWidth();
+  const std::string error = errorText(picture);
+  const float content =
+      std::max(ImGui::CalcTextSize(error.c_str()).x, difference ? differenceScaleWidth(width) : 0);
+  const float left = width - content - 2 * ImGui::GetStyle().WindowPadding.x - 2 * gap;
+  const float bottom = edge.above(left, width);
+  ImGui::SetNextWindowPos({width - gap, bottom - gap}, ImGuiCond_Always, {1, 1});
   ImGui::SetNextWindowBgAlpha(0.85f);
   ImGui::Begin("reference picture", nullptr, kOver | ImGuiWindowFlags_AlwaysAutoResize);
   if (difference) differenceScale("Unshot \u2212 " + picture.name(), "of white", width);
-  ImGui::TextUnformatted(errorText(picture).c_str());
+  ImGui::TextUnformatted(error.c_str());
   tooltip(kErrorTip);
+  edge.take(left, width, bottom - gap - ImGui::GetWindowHeight());
   ImGui::End();
 }
 
@@ -105,12 +111,12 @@ void referencePictureChoices(Viewer& viewer) {
   ImGui::EndDisabled();
 }
 
-void buildReferencePicture(Viewer& viewer, int scene_width, float bottom) {
+void buildReferencePicture(Viewer& viewer, float bottom, LowerEdge& edge) {
   const ReferencePicture* picture = viewer.referencePicture();
-  if (!picture || scene_width <= 0) return;
+  if (!picture || edge.sceneWidth() <= 0) return;
   const bool difference = viewer.ui().picture_difference;
-  if (!difference) divider(viewer, *picture, static_cast<float>(scene_width), bottom);
-  figure(*picture, difference, static_cast<float>(scene_width), bottom);
+  if (!difference) divider(viewer, *picture, edge.sceneWidth(), bottom);
+  figure(*picture, difference, edge);
 }
 
 }  // namespace unshot

@@ -2,6 +2,7 @@
 // they are apart.
 #pragma once
 
+#include "viewer/panels/lower_edge.h"
 #include "viewer/viewer.h"
 
 namespace unshot {
@@ -9,8 +10,8 @@ namespace unshot {
 /// Rows of the panel; nothing where no picture is loaded.
 void referencePictureChoices(Viewer& viewer);
 
-/// The line, which can be dragged, with names at its sides or a scale, and the figure, over the scene above
-/// y = `bottom`.
-void buildReferencePicture(Viewer& viewer, int scene_width, float bottom);
+/// The line, which can be dragged and ends at y = `bottom`, with names at its sides or a scale, and the
+/// figure, over the scene.
+void buildReferencePicture(Viewer& viewer, float bottom, LowerEdge& edge);
 
 }  // namespace unshot

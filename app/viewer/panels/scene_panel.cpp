@@ -65,6 +65,17 @@ void chooseSky(Viewer& viewer) {
   ImGui::EndCombo();
 }
 
+void chooseEmission(Viewer& viewer) {
+  label("Lights",
+        "Whether lights emit on both sides, or on their front alone, where the corners of their polygons run "
+        "counter-clockwise. Another choice solves again from the start");
+  const bool front = viewer.ui().options.emit_front_only;
+  if (!ImGui::BeginCombo("##emit", front ? "front alone" : "both sides")) return;
+  if (ImGui::Selectable("both sides", !front)) viewer.perform("emit", "both");
+  if (ImGui::Selectable("front alone", front)) viewer.perform("emit", "front");
+  ImGui::EndCombo();
+}
+
 }  // namespace
 
 void sceneSection(Viewer& viewer) {
@@ -76,11 +87,12 @@ void sceneSection(Viewer& viewer) {
   }
   const Mesh& mesh = *state.snapshot->mesh;
   line("Triangles", countText(state.facts->triangles),
-       "Of the file's faces; those without area are left out");
-  line("Materials", countText(mesh.materials.size()), "Of the MTL files");
+       "Number of triangles of the file's faces; those without area are left out");
+  line("Materials", countText(mesh.materials.size()), "Number of materials in the MTL files");
   line("Extent", extentText(mesh.bounds_max - mesh.bounds_min) + " m",
        "Along x, y and z [m]; OBJ files are in metres");
   chooseSky(viewer);
+  chooseEmission(viewer);
 }
 
 void chooseScene(Viewer& viewer) {

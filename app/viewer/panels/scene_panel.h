@@ -7,7 +7,7 @@ class Viewer;
 
 void chooseScene(Viewer& viewer);
 
-/// What the scene is, and the sky around it.
+/// What the scene is, the sky around it, and which sides of its lights emit.
 void sceneSection(Viewer& viewer);
 
 }  // namespace unshot

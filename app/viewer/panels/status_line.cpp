@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "solver/modes.h"
 #include "viewer/panels/error_panel.h"
+#include "viewer/panels/lecture_panel.h"
 #include "viewer/panels/panels.h"
 #include "viewer/panels/widgets.h"
 #include "viewer/teaching.h"
@@ -49,9 +50,10 @@ std::array<Part, 6> partsOf(const Viewer& viewer) {
   return {{
       {solving ? "unshot " + percentText(state.measures.unshot_fraction) : nothing, "unshot 0.0012 %",
        "Light that is emitted or reflected but not yet shot: \u2211 A |U| / \u2211 A E over patches and "
-       "channels"},
+       "channels [%]"},
       {solving ? knownError(state) : nothing, "error about 0.0012 %",
-       "How wrong the reflected light still is (RMS error over RMS light); \"below\" is a proven bound of "
+       "How wrong the reflected light still is, RMS of B \u2212 B* over RMS of B* \u2212 E [%]; \"below\" is "
+       "a proven bound of "
        "the solver's error, \"about\" an estimate of all of it, \"up to\" the upper end of one that noise "
        "hides"},
       {running ? countText(rows) + " rows/s" : nothing, "00,000 rows/s",
@@ -91,26 +93,23 @@ PhaseLook phaseLook(const SessionState& state) {
 
 namespace {
 
-/// That the panel has no room, and what gives it some, as much of it as is no wider than this; empty where
-/// the panel is there.
+/// That the panel has no room, and what shows it all the same, as much of it as is no wider than this; empty
+/// where the panel is there.
 std::string missingPanel(const Viewer& viewer, float room) {
-  const int window = static_cast<int>(ImGui::GetIO().DisplaySize.x);
-  if (viewer.teaching().choices.lecture || panelWidth(viewer.ui(), viewer.scale(), window) > 0) return {};
-  const std::string wider =
-      countText(static_cast<std::uint64_t>(leastWindowWithPanel(viewer.scale()))) + " px";
-  for (const std::string& text :
-       {"no room for the panel: a window of " + wider + " of width or a smaller scale (action scale) has it",
-        "no room for the panel: " + wider + " or a smaller scale",
-        "no panel: " + wider + " or smaller scale"}) {
-    if (ImGui::CalcTextSize(text.c_str()).x <= room) return text;
+  if (viewer.teaching().choices.lecture || panelHasRoom(viewer)) return {};
+  for (const char* text : {"no room for the panel beside the scene: Tab lays it over it",
+                           "no room for the panel: Tab lays it over"}) {
+    if (ImGui::CalcTextSize(text).x <= room) return text;
   }
-  return shortened("no panel: smaller scale", room);
+  return shortened("Tab: the panel", room);
 }
 
 void missingPanelTip(const Viewer& viewer) {
-  tooltip("The panel takes " + countText(static_cast<std::uint64_t>(leastWindowWithPanel(viewer.scale()))) +
-          " px of window at this scale: make the window wider (action size), or panels and text smaller "
-          "(Ctrl+P, action scale 1)");
+  tooltip(
+      "Beside the scene the panel takes a window of " +
+      countText(static_cast<std::uint64_t>(leastWindowWithPanel(viewer.scale()))) +
+      " px at this scale: make the window wider (action size), or panels and text smaller (Ctrl+P, action "
+      "scale 1). Tab lays it over the scene, and takes it away again");
 }
 
 }  // namespace

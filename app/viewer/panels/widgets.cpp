@@ -40,9 +40,13 @@ void dot(const ImVec4& colour) {
 void line(const char* name, const std::string& value, std::string_view tip) {
   ImGui::TextDisabled("%s", name);
   tooltip(tip);
-  const float width = ImGui::CalcTextSize(value.c_str()).x;
-  ImGui::SameLine(std::max(ImGui::GetContentRegionMax().x - width, 6.6f * ImGui::GetFontSize()));
+  const float start = ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(value.c_str()).x;
+  const float end = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + 0.5f * ImGui::GetFontSize();
+  // Below the name, where both have no room.
+  if (start > end) ImGui::SameLine();
+  ImGui::SetCursorPosX(std::max(start, ImGui::GetCursorStartPos().x));
   ImGui::TextUnformatted(value.c_str());
+  tooltip(tip);
 }
 
 std::string channelText(double value) {
@@ -89,11 +93,37 @@ void paragraph(const char* name, std::string_view text) {
   wrapped(std::string(text));
 }
 
+namespace {
+
+/// How much of the word is no wider than this: whole characters, one at least, up to its last slash where
+/// that is not far back.
+std::size_t fittingPart(std::string_view word, float width) {
+  const auto begins = [&](std::size_t k) { return (static_cast<unsigned char>(word[k]) & 0xc0u) != 0x80u; };
+  std::size_t fits = 0, slash = 0;
+  for (std::size_t end = 1; end <= word.size(); ++end) {
+    if (end < word.size() && !begins(end)) continue;
+    if (fits > 0 && ImGui::CalcTextSize(word.data(), word.data() + end).x > width) break;
+    fits = end;
+    if (word[end - 1] == '/') slash = end;
+  }
+  return fits < word.size() && 2 * slash > fits ? slash : fits;
+}
+
+}  // namespace
+
 std::string brokenText(std::string_view text, float width) {
   std::string out;
   for (const std::string_view given : splitParts(text, '\n')) {
     std::string line;
-    for (const std::string_view word : splitParts(given, ' ')) {
+    for (std::string_view word : splitParts(given, ' ')) {
+      while (ImGui::CalcTextSize(word.data(), word.data() + word.size()).x > width) {
+        const std::size_t part = fittingPart(word, width);
+        if (part == word.size()) break;
+        if (!line.empty()) out += line + "\n";
+        line.clear();
+        out += std::string(word.substr(0, part)) + "\n";
+        word.remove_prefix(part);
+      }
       const std::string longer = line.empty() ? std::string(word) : line + " " + std::string(word);
       if (!line.empty() && ImGui::CalcTextSize(longer.c_str()).x > width) {
         out += line + "\n";

@@ -21,7 +21,7 @@ void label(const char* text, std::string_view tip = {});
 /// A disc in the line's left end; text follows it.
 void dot(const ImVec4& colour);
 
-/// Text on the left and text at the right border.
+/// Text on the left and text at the right border, below it where both do not fit.
 void line(const char* name, const std::string& value, std::string_view tip = {});
 
 /// As many digits as a column of figures holds: "0.0123", "1.23e-5", "1.2e-12"; and its width [px].
@@ -45,8 +45,8 @@ std::string shortened(const std::string& text, float width);
 /// has all of it.
 bool beginCombo(const char* id, const std::string& shown);
 
-/// The text broken into lines no wider than this [px], as far as its words allow it: between words only, so
-/// that no number is torn apart. Lines that it has stay.
+/// The text broken into lines no wider than this [px]: between words, so that no number is torn apart; within
+/// a word only where that alone is wider, such as a long path. Lines that it has stay.
 std::string brokenText(std::string_view text, float width);
 
 /// The title of a table's row; the key itself where there is none.
