@@ -89,6 +89,7 @@ void printCheck(const Scene& scene, const CheckRecord& record) {
 CheckRecord recordOf(const Scene& scene, const CheckRequest& request) {
   SolveOptions options;
   options.emit_front_only = request.emit == "front";
+  options.soonest = true;  // as `unshot solve` would have it
   Preparation prepared = prepare(scene, options);
   const CancelToken never;
   CheckedScene checked(scene, *prepared.mesh, options.emit_front_only, never);

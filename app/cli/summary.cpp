@@ -63,7 +63,9 @@ std::string rendererText(const RunRecord& record) {
 }  // namespace
 
 std::string planText(const PlanDecision& decision) {
-  return decision.what + ": " + decision.why + (decision.saving.empty() ? "" : " (" + decision.saving + ")");
+  const std::string sure = decision.bound > 0 ? "within " + percentText(decision.bound) : "exact";
+  return decision.what + ": " + decision.why + " (" +
+         (decision.saving.empty() ? "" : "saves " + decision.saving + "; ") + sure + ")";
 }
 
 void printSummary(std::ostream& out, const RunRecord& record, const SolveOptions& options,

@@ -130,7 +130,6 @@ void Lane::completeBounces(bool wanted) {
   most_missing_ = 0;
 }
 
-/// How much of that is done; none where none of it is left.
 std::optional<double> Lane::completing() const {
   if (!complete_bounces_ || broken() || !hasBounceWork()) return std::nullopt;
   const std::size_t missing = solve_->bounceWait().columns;

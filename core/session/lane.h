@@ -58,6 +58,8 @@ class Lane {
   std::optional<double> gathering() const {
     return looking_on_ && looking_on_->hasWork() ? looking_on_->gathering() : std::nullopt;
   }
+  /// How much of what completeBounces() asked for is computed; none where nothing of it is left.
+  std::optional<double> completing() const;
   /// Light by bounces, then errors estimated from more places, and the sums of rows. Returns whether that is
   /// to be shown now.
   bool spareWork(double interval);
@@ -74,7 +76,6 @@ class Lane {
   void noteException() { note_(presentError()); }
   bool hasLight() const;
   bool hasBounceWork() const;
-  std::optional<double> completing() const;
   bool workOutBounces(double interval);
   bool sumRows();
   bool gather();

@@ -97,9 +97,9 @@ bool LiveSolve::hasSpareWork() const {
 void LiveSolve::spareWork() {
   Lane& lane = lane_->hasSpareWork() ? *lane_ : *rival_;
   const bool news = lane.spareWork(*setup_.interval);
-  const bool gathers = lane.gathering() && wallSeconds() >= last_told_ + kTellSeconds;
-  if (gathers) last_told_ = wallSeconds();
-  if (news || gathers) publish();
+  const bool tells = (lane.gathering() || lane.completing()) && wallSeconds() >= last_told_ + kTellSeconds;
+  if (tells) last_told_ = wallSeconds();
+  if (news || tells) publish();
 }
 
 void LiveSolve::perform(const command::Open& c) {

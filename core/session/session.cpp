@@ -23,6 +23,7 @@ struct Session::Impl {
   const SessionSetup setup;
   std::atomic<bool> closing{false}, given_up{false};  // given_up: what is being loaded
   std::atomic<bool> save_given_up{false}, closed{false};
+  std::atomic<bool> nobody_waits{false};  // for the thread to end
   std::atomic<double> interval{PublishPace::kLeastInterval};
 
   mutable std::mutex mutex;  // of what follows
@@ -39,7 +40,7 @@ struct Session::Impl {
     thread = std::thread([this] {
       run();
       closed = true;
-      if (setup.wake) setup.wake();
+      if (nobody_waits && setup.wake) setup.wake();
     });
   }
   ~Impl() { close(); }
@@ -155,7 +156,10 @@ Session::~Session() = default;
 
 void Session::close() { impl_->close(); }
 
-void Session::beginClosing() { impl_->beginClosing(); }
+void Session::beginClosing() {
+  impl_->nobody_waits = true;
+  impl_->beginClosing();
+}
 
 bool Session::closed() const { return impl_->closed; }
 

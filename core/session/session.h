@@ -132,7 +132,7 @@ class Session {
   /// Begins with that, and does not wait: commands that are sent from now on are not carried out, but
   /// giveUpSaving() is heard.
   void beginClosing();
-  /// Whether the thread has ended. SessionSetup::wake is called once it has.
+  /// Whether the thread has ended. After beginClosing() SessionSetup::wake is called once it has.
   bool closed() const;
 
   /// While one lives no step is taken, though commands are carried out: what is sent meanwhile happens

@@ -47,6 +47,9 @@ TEST_F(FirstUse, AnEmptySceneSaysSoAndWhatToDo) {
     EXPECT_THAT(said, HasSubstr(why));
     EXPECT_THAT(said, HasSubstr("Try:"));
     EXPECT_EQ(live->state().phase, SessionPhase::kEmpty);
+    const ImGuiWindow* empty = ImGui::FindWindowByName("empty");
+    ASSERT_TRUE(empty && empty->Active);
+    EXPECT_THAT(lettersOf(*empty), HasSubstr("Ctrl+O"));
     // It is not the end: another scene is opened.
     live->perform("dismiss");
     live->perform("open", std::string(UNSHOT_SOURCE_DIR) + "/assets/two_patches.obj");

@@ -237,7 +237,7 @@ int redCorners() {
 
 // The scene's own reflectances times a factor: the series grows once that brings the radius above 1.
 TEST(Lecture, TheGrowingSeriesIsRed) {
-  LiveViewer live(cornellBox("wait converged\ncomplete-bounces\nlecture-page matrix\n"));
+  LiveViewer live(boxToTeachWith("wait converged\ncomplete-bounces\nlecture-page matrix\n"));
   ASSERT_TRUE(finished(live));
   ASSERT_TRUE(live.until([&] { return live->teaching().insight() && live->teaching().insight()->matrix; }));
   ASSERT_TRUE(live.until([&] { return live->nextFrame(0) > 1e30; }));
@@ -291,7 +291,7 @@ TEST(Lecture, StepIsDisabledWhereNothingIsToBeShot) {
 }
 
 TEST(Lecture, GatheringSaysHowFarItIsAndCanBeGivenUp) {
-  LiveViewer::Options options = cornellBox("pause on\nstep 3000\nwait shots 3000\n");
+  LiveViewer::Options options = boxToTeachWith("pause on\nstep 3000\nwait shots 3000\n");
   options.solve.elements = 30000;
   options.solve.form_factors = "rays";
   options.solve.error = 1e-6;
@@ -327,7 +327,7 @@ TEST(Lecture, GatheringSaysHowFarItIsAndCanBeGivenUp) {
 
 // Nothing is gathered of it, and nothing is being gathered.
 TEST(Lecture, OfASceneWithoutLightSaysSo) {
-  LiveViewer live(cornellBox("wait converged\nlight light off\nlecture-page matrix\n"));
+  LiveViewer live(boxToTeachWith("wait converged\nlight light off\nlecture-page matrix\n"));
   ASSERT_TRUE(finished(live));
   ASSERT_TRUE(live.until([&] { return live->state().stopped_by == "no light" && live->upToDate(); }));
   const auto page = [&] {
@@ -352,7 +352,7 @@ TEST(Lecture, OfASceneWithoutLightSaysSo) {
 }
 
 TEST(HemicubeLooks, ThatGetReadyCanBeGivenUp) {
-  LiveViewer::Options options = cornellBox("pause on\n");
+  LiveViewer::Options options = boxToTeachWith("pause on\n");
   options.solve.elements = 100000;
   LiveViewer live(options);
   ASSERT_TRUE(live.until([&] { return live->state().snapshot != nullptr; }));

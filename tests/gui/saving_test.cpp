@@ -107,13 +107,13 @@ TEST_F(Saving, AKeptSolveIsSavedAtItsEndsAndNoOtherScene) {
                       with(kCommon, {"--save", "s.unshot"}))
                 .code,
             0);
-  const ProgramResult resumed =
-      runScript(folder_, "pause on\nquit\n", {"room.obj", "--resume", "s.unshot", "--save", "s.unshot"});
+  const ProgramResult resumed = runScript(folder_, "pause on\nwait shots 1\nquit\n",
+                                          {"room.obj", "--resume", "s.unshot", "--save", "s.unshot"});
   EXPECT_EQ(resumed.code, 0) << resumed.err;
   EXPECT_THAT(resumed.err, HasSubstr("7 shots"));
   solveOn(folder_, "s.unshot", "a.ply");
   folder_.write("broken.obj", "v 0 0 0\nf 1 2 3\n");
-  EXPECT_EQ(runScript(folder_, "quit\n", {"broken.obj", "--save", "never.unshot"}).code, 3);
+  EXPECT_EQ(runScript(folder_, "wait shots 1\nquit\n", {"broken.obj", "--save", "never.unshot"}).code, 3);
   EXPECT_FALSE(folder_.has("never.unshot"));
   for (const std::string file : {"room.obj", "missing/s.unshot"}) {
     const ProgramResult refused = runScript(folder_, "quit\n", with(kCommon, {"--save", file}));

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 using testing::Not;
 using namespace testing_support;
 
-LiveViewer::Options cornellBox() {
+LiveViewer::Options boxWithTips() {
   LiveViewer::Options options;
   options.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
   options.solve.elements = 300;
@@ -42,7 +42,7 @@ class Tips : public testing::Test {
     return tip ? lettersOf(*tip) : std::string();
   }
 
-  LiveViewer live_{cornellBox()};
+  LiveViewer live_{boxWithTips()};
   Mouse mouse_{live_};
 };
 

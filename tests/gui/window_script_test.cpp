@@ -17,12 +17,12 @@ using namespace testing_support;
 
 const std::string kFurnace = std::string(UNSHOT_SOURCE_DIR) + "/assets/furnace.obj";
 
-/// Runs the lines in a window of 640 x 480 and expects that nothing was wrong.
-void runInWindow(const TempFolder& folder, const std::string& lines) {
+/// Runs the lines in a window and expects that nothing was wrong.
+void runInWindow(const TempFolder& folder, const std::string& lines, const std::string& size = "640x480") {
   const Screen screen;
   folder.write("script.txt", lines);
-  const ProgramResult run = runProgram(folder, {"view", "--script", "script.txt", "--size", "640x480",
-                                                "--elements", "300", "--error", "0.02"});
+  const ProgramResult run = runProgram(
+      folder, {"view", "--script", "script.txt", "--size", size, "--elements", "300", "--error", "0.02"});
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(run.err, "");
 }
@@ -50,7 +50,7 @@ TEST(WindowScript, EveryActionOfTheTableIsPerformed) {
   const TempFolder folder;
   const ProgramResult solved =
       runProgram(folder, {"solve", std::string(UNSHOT_SOURCE_DIR) + "/assets/two_patches.obj", "--elements",
-                          "300", "--ply", "solution.ply"});
+                          "300", "--do-all", "--ply", "solution.ply"});
   ASSERT_EQ(solved.code, 0) << solved.err;
   writePng(folder / "picture.png", Image8{2, 1, {255, 128, 0, 0, 128, 255}});
   std::string script = "wait converged\n";
@@ -65,7 +65,7 @@ TEST(WindowScript, EveryActionOfTheTableIsPerformed) {
     if (!action.needsArgument())
       script += key + "\n" + (key == "pause" ? "pause off\n" : "") + "wait converged\n";
   }
-  runInWindow(folder, script + "quit\n");
+  runInWindow(folder, script + "quit\n", "640x360");
   for (const char* name : {"with.png", "without.png", "with.unshot", "with.mtl", "with.csv"})
     EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
 }

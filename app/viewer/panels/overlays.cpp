@@ -165,7 +165,7 @@ void buildOverlays(Viewer& viewer, const LowerEdge& edge, bool covered, bool not
     // What else there is to say is said once it is done.
   } else if (framing && state.facts) {
     lineOverScene("framing", "looking for a good view \u2026", {middle, height / 2}, {0.5f, 0.5f});
-  } else if (state.phase == SessionPhase::kEmpty && !viewer.error()) {
+  } else if (state.phase == SessionPhase::kEmpty) {
     lineOverScene("empty", "Drop an OBJ scene here, or Ctrl+O", {middle, height / 2}, {0.5f, 0.5f});
   } else if (state.stopped_by == "no light") {
     const char* dark =
