@@ -16,7 +16,7 @@ namespace {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
-constexpr Rgb kNothing = {24, 24, 28};
+constexpr Rgb kNothingThere = {24, 24, 28};
 constexpr std::size_t kMeteredStep = 3;  // the exposure is found from each third pixel
 
 Rgb encoded(const glm::dvec3& linear) {
@@ -137,7 +137,7 @@ std::vector<std::uint8_t> paintCross(const HemicubeLook& look, HemicubeColours c
       const std::optional<std::size_t> pixel = crossPixel(look.layout, x, y);
       if (!pixel) continue;
       const std::uint32_t element = look.elements[*pixel];
-      Rgb colour = kNothing;
+      Rgb colour = kNothingThere;
       if (colours == HemicubeColours::kDelta)
         colour = encoded(glm::dvec3((*look.delta)[*pixel] / most));
       else if (element != kNone)

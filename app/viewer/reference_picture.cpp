@@ -18,7 +18,7 @@
 namespace unshot {
 namespace {
 
-constexpr double kReadingShare = 0.8;            // of the time until it is in memory; the rest: levels
+constexpr double kFileShare = 0.8;               // of the time until it is in memory; the rest: levels
 constexpr std::size_t kUploadPixels = 1u << 16;  // sent at a time
 
 // OpenGL's first row is the lowest.
@@ -62,8 +62,8 @@ std::optional<double> relativeError(const std::vector<std::uint8_t>& ours,
 
 ReferencePicture::Content ReferencePicture::read(const std::filesystem::path& file,
                                                  const CancelToken& cancel) {
-  PictureFile picture = readPicture(file, cancel.part(0, kReadingShare));
-  cancel.report(kReadingShare);
+  PictureFile picture = readPicture(file, cancel.part(0, kFileShare));
+  cancel.report(kFileShare);
   turnOver(picture.image);
   return {file, picture.light, mipLevels(std::move(picture.image), cancel)};
 }

@@ -7,7 +7,7 @@
 namespace unshot {
 namespace {
 
-constexpr double kReadingShare = 0.8;  // of the time that a reference picture takes
+constexpr double kDecodingShare = 0.8;  // of the time that a reference picture takes
 
 template <class Result>
 Task taskOf(FileLoad<Result>& load) {
@@ -38,7 +38,7 @@ std::vector<Task> Viewer::tasks() {
     Task task = taskOf(picture_load_);
     const double read = task.done.value_or(0), sent = coming_picture_ ? coming_picture_->uploaded() : 0;
     if (task.done || coming_picture_)
-      task.done = kReadingShare * (coming_picture_ ? 1 : read) + (1 - kReadingShare) * sent;
+      task.done = kDecodingShare * (coming_picture_ ? 1 : read) + (1 - kDecodingShare) * sent;
     task.giveUp = [this] { giveUpReferencePicture(); };
     out.push_back(task);
   }

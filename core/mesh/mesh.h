@@ -198,6 +198,7 @@ struct Mesh {
   /// The mesh that this one refines (mesh/refine.h): surfaces, sides, patches and their numbers are the same.
   /// Null where there is none.
   std::shared_ptr<const Mesh> base;
+  bool for_error = false;  ///< as fine as the error asked for needs, which is that of the whole then
   std::vector<std::uint32_t>
       element_from_base;        ///< the base's element that each is a part of; none without base
   SparseRows vertex_from_base;  ///< interpolation from base->vertices: a row per vertex; none without base

@@ -38,7 +38,8 @@ Json jsonOf(const std::vector<PlanDecision>& plan) {
                     {"what", decision.what},
                     {"why", decision.why},
                     {"saving", decision.saving},
-                    {"sure", decision.sure()}});
+                    {"sure", decision.sure()},
+                    {"bound", decision.bound}});
   }
   return list;
 }

@@ -5,6 +5,8 @@
 
 #include "formfactor/methods.h"
 #include "formfactor/transport.h"
+#include "session/fields.h"
+#include "session/local_pass.h"
 #include "solver/patch_solve.h"
 #include "solver/state.h"
 
@@ -14,11 +16,11 @@ namespace {
 // The first trial has this share of the usual elements, the last at most that.
 constexpr double kFirst = 1.0 / 64, kLast = 1.0 / 4;
 // From one trial to the next, times as many at least and at most.
-constexpr double kLeastStep = 2, kMostStep = 4;
+constexpr double kLeastStep = 2, kMostStep = 10;
 // The error falls with at least this power of their number: walls that meet hold it up.
-constexpr double kOrder = 0.6;
-// The upper end of an estimate's interval over the error asked for: it allows for noise and occluders (1.8),
-// and in rooms without either errors were up to 1.4 times the estimate.
+constexpr double kOrder = 0.5;
+// The upper end of an estimate's interval over the error asked for: besides the spread over places it allows
+// for occluders and coarse patches (1.8). In rooms without either errors were up to 1.4 times the estimate.
 constexpr double kTrusted = 1.5;
 // Where more than so many times the last trial's elements seem to be needed, no more are made.
 constexpr double kHopeless = 1.1;
@@ -48,9 +50,10 @@ CoarseMesh findCoarseMesh(const CoarseTrial& trial, const CancelToken& cancel) {
   const double last = kLast * trial.usual;
   for (double elements = kFirst * trial.usual; elements <= last;) {
     std::shared_ptr<const Mesh> mesh = trial.make(elements);
-    const ErrorEstimate found = tryMesh(*mesh, trial.seed, cancel);
+    SolvedAtOnce solved = solveAtOnce(*mesh, trial.seed, cancel);
+    const ErrorEstimate found = solved.error;
     if (found.places == 0) break;
-    if (found.high <= kTrusted * trial.error) return {std::move(mesh), found};
+    if (found.high <= kTrusted * trial.error) return {std::move(mesh), std::move(solved)};
     const double needed = elements * std::pow(kSpread * found.value / (kTrusted * trial.error), 1 / kOrder);
     if (needed > kHopeless * last) break;
     elements = std::clamp(needed, kLeastStep * elements, kMostStep * elements);
@@ -58,7 +61,7 @@ CoarseMesh findCoarseMesh(const CoarseTrial& trial, const CancelToken& cancel) {
   return {};
 }
 
-ErrorEstimate tryMesh(const Mesh& mesh, std::uint64_t seed, const CancelToken& cancel) {
+SolvedAtOnce solveAtOnce(const Mesh& mesh, std::uint64_t seed, const CancelToken& cancel) {
   FormFactorSetup setup;
   setup.mesh = &mesh;
   setup.cancel = cancel;
@@ -79,9 +82,27 @@ ErrorEstimate tryMesh(const Mesh& mesh, std::uint64_t seed, const CancelToken& c
   for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
     if (shot[q] != glm::dvec3(0.0)) state.shoot(q, shot[q], transport.column(q));
   }
+  SolvedAtOnce out;
+  std::vector<glm::dvec3> shown = state.irradiance();
+  if (transport.receivers().layered()) {
+    LocalPass local_pass(mesh, transport.receivers(), false);
+    for (int k = 0; k < LocalPass::kPasses; ++k) {
+      local_pass.begin(state, makeField(mesh, transport.receivers(), shown));
+      while (local_pass.running()) {
+        cancel.check();
+        local_pass.advance(transport);
+      }
+      out.local_irradiance = local_pass.irradiance();
+      shown = state.irradiance();
+      for (std::size_t v = 0; v < shown.size(); ++v) shown[v] += out.local_irradiance[v];
+    }
+  }
   Residuals residuals(mesh, transport.receivers(), false, seed);
-  residuals.add(kPlaces, state.irradiance());
-  return residuals.estimate(state, matrix, state.irradiance(), false).both;
+  residuals.add(kPlaces, shown);
+  out.error = residuals.estimate(state, matrix, shown, false).both;
+  out.values = state.values();
+  for (std::uint32_t q = 0; q < mesh.patch_count; ++q) out.columns.push_back(*transport.take(q, false));
+  return out;
 }
 
 }  // namespace unshot

@@ -6,8 +6,10 @@
 #include <memory>
 
 #include "base/cancel.h"
+#include "formfactor/method.h"
 #include "mesh/mesh.h"
 #include "session/residuals.h"
+#include "solver/state.h"
 
 namespace unshot {
 
@@ -19,9 +21,17 @@ struct CoarseTrial {
   std::function<std::shared_ptr<const Mesh>(double)> make;
 };
 
+/// The light of a mesh, solved at once: what a solve on it can begin, and end, with.
+struct SolvedAtOnce {
+  std::vector<Column> columns;  ///< one per patch
+  RadiosityState::Values values;
+  std::vector<glm::dvec3> local_irradiance;  ///< LocalPass::irradiance; empty where the mesh has no base
+  ErrorEstimate error;                       ///< of form factors and mesh together
+};
+
 struct CoarseMesh {
   std::shared_ptr<const Mesh> mesh;
-  ErrorEstimate error;  ///< of form factors and mesh together
+  SolvedAtOnce solved;
 };
 
 /// Whether trials can tell anything: `coarsest` is the scene's mesh with as few elements as can be. Emitters
@@ -34,7 +44,7 @@ bool mayBeCoarse(const Mesh& coarsest, double usual);
 /// (nothingCanOcclude). Throws Cancelled.
 CoarseMesh findCoarseMesh(const CoarseTrial& trial, const CancelToken& cancel);
 
-/// The error of such a mesh, solved at once: the time grows with the square of its elements.
-ErrorEstimate tryMesh(const Mesh& mesh, std::uint64_t seed, const CancelToken& cancel);
+/// The time grows with the square of the mesh's elements.
+SolvedAtOnce solveAtOnce(const Mesh& mesh, std::uint64_t seed, const CancelToken& cancel);
 
 }  // namespace unshot

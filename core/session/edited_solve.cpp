@@ -94,7 +94,8 @@ Solve::Solve(Solve& before, const std::vector<Material>& materials, const std::f
 // All that may throw comes before the form factors go over.
 void Solve::Impl::takeOver(Impl& before) {
   for (const PlanDecision& decision : before.plan) {
-    const bool of_the_mesh = decision.key == plan_keys::kHemicubes || decision.key == plan_keys::kEvenLight;
+    const bool of_the_mesh = decision.key == plan_keys::kHemicubes || decision.key == plan_keys::kEvenLight ||
+                             decision.key == plan_keys::kFineness;
     if (of_the_mesh && !isMade(plan, decision.key)) plan.push_back(decision);
   }
   chooseMode(options.mode);

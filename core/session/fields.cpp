@@ -47,7 +47,7 @@ std::vector<glm::vec3> meanOverElements(const Mesh& mesh, const std::vector<glm:
 MeshField makeField(const Mesh& mesh, const Receivers& receivers, const std::vector<glm::dvec3>& values) {
   if (receivers.kind == ReceiverKind::kElements)
     return {atVertices(mesh, [&](std::uint32_t e) { return values[e]; }), {values.begin(), values.end()}};
-  if (!receivers.layered()) return {{values.begin(), values.end()}, meanOverElements(mesh, values)};
+  if (!mesh.for_error) return {{values.begin(), values.end()}, meanOverElements(mesh, values)};
   std::vector<glm::dvec3> shown;
   shown.reserve(receivers.shownCount());
   for (std::uint32_t v = 0; v < receivers.shownCount(); ++v) shown.push_back(receivers.shown(v, values));

@@ -11,8 +11,8 @@
 namespace unshot {
 
 /// A field on receivers (one value each) at the vertices and on the elements: where one of the two is not
-/// what the receivers are, interpolated or averaged. On a mesh that follows the light values at vertices are
-/// those that fit best between them (linear_fit.h).
+/// what the receivers are, interpolated or averaged. On a mesh that was made for an error values at vertices
+/// are those that fit best between them (linear_fit.h).
 MeshField makeField(const Mesh& mesh, const Receivers& receivers, const std::vector<glm::dvec3>& values);
 
 /// Values of patches (one each) at the vertices, interpolated.

@@ -20,6 +20,9 @@ namespace unshot {
 
 class LocalPass {
  public:
+  /// So often it is to go: beside an edge one wall's light depends on the other's there.
+  static constexpr int kPasses = 2;
+
   /// For receivers at vertices; all must outlive the pass. `occlusion`: whether anything can stand between
   /// two points.
   LocalPass(const Mesh& mesh, const Receivers& receivers, bool occlusion);

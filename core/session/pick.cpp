@@ -126,12 +126,10 @@ std::vector<PickedDecision> decisionsFor(const Mesh& mesh, const Pick& pick,
     out.push_back({plan_keys::kOcclusion, "Nothing can stand between two points: no occlusion is tested."});
   if (isLeftOut(plan, plan_keys::kHemicubes))
     out.push_back({plan_keys::kHemicubes, "Rays find what its vertices see; no hemicube is drawn."});
+  if (isLeftOut(plan, plan_keys::kFineness))
+    out.push_back({plan_keys::kFineness, "A coarse mesh of the whole scene was tried, and is good enough."});
   if (isLeftOut(plan, plan_keys::kEvenLight) && mesh.base && pick.element != kNone)
     out.push_back({plan_keys::kEvenLight, evenLightText(mesh, pick.element)});
-  const Side& side = mesh.sides[pick.side];
-  const bool black = side.reflectance == glm::dvec3(0.0) && side.emission == glm::dvec3(0.0);
-  if (black && isLeftOut(plan, plan_keys::kBlackPatches))
-    out.push_back({plan_keys::kBlackPatches, "Black: its patches send nothing and never shoot."});
   return out;
 }
 

@@ -38,7 +38,7 @@ constexpr std::size_t kMostTriangles = 50'000;
 // checked.
 constexpr double kSurfacesShare = 0.45, kMeshShare = 0.9, kChecksShare = 0.95;
 // Light straight from emitters, on a coarse mesh: its vertices cost little there.
-constexpr double kFinerLight = 0.1;
+constexpr double kFinerLight = 0.3;
 
 bool atVertices(const std::string& method) {
   return findChoice(formFactorMethods(), method, "form-factor method").receivers == ReceiverKind::kVertices;
@@ -76,6 +76,7 @@ std::shared_ptr<const Mesh> baseMesh(const SurfacesOfScene& surfaces, MeshOption
   mesh_options.paired_cells = true;
   Mesh mesh = meshSurfaces(surfaces, mesh_options, cancel);
   std::erase_if(mesh.diagnostics, [](const Diagnostic& d) { return d.code == "element-count"; });
+  mesh.for_error = true;
   return std::make_shared<const Mesh>(std::move(mesh));
 }
 
@@ -89,16 +90,15 @@ LightRefinement refinementFor(const SolveOptions& options, const std::string& me
 }
 
 // A coarse mesh that is good enough, if there is one. `coarsest`: see mayBeCoarse.
-std::shared_ptr<const Mesh> coarseMesh(const SurfacesOfScene& surfaces, const SolveOptions& options,
-                                       const MeshOptions& mesh_options,
-                                       const std::shared_ptr<const Mesh>& coarsest,
-                                       std::vector<PlanDecision>& plan, const CancelToken& cancel) {
+CoarseMesh coarseMesh(const SurfacesOfScene& surfaces, const SolveOptions& options,
+                      const MeshOptions& mesh_options, const std::shared_ptr<const Mesh>& coarsest,
+                      std::vector<PlanDecision>& plan, const CancelToken& cancel) {
   const double usual = baseElements(options, surfaces.mesh.sides.size());
-  if (!mayBeCoarse(*coarsest, usual)) return nullptr;
+  if (!mayBeCoarse(*coarsest, usual)) return {};
   LightRefinement refinement = refinementFor(options, "closed-form");
   refinement.error *= kFinerLight;
   refinement.emitters = coarsest;
-  const CoarseMesh found = findCoarseMesh(
+  CoarseMesh found = findCoarseMesh(
       {.error = options.error,
        .usual = usual,
        .seed = options.seed,
@@ -107,8 +107,8 @@ std::shared_ptr<const Mesh> coarseMesh(const SurfacesOfScene& surfaces, const So
              return refineForLight(baseMesh(surfaces, mesh_options, elements, cancel), refinement, cancel);
            }},
       cancel);
-  if (found.mesh) plan.push_back(withoutFineness(*found.mesh, found.error.high, usual));
-  return found.mesh;
+  if (found.mesh) plan.push_back(withoutFineness(*found.mesh, options.error, found.solved.error, usual));
+  return found;
 }
 
 }  // namespace
@@ -140,8 +140,11 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
   if (to_refine && open && out.form_factors == "closed-form") {
     coarsest = baseMesh(*surfaces, mesh_options, 1, cancel);
     // A live solve's materials may be edited, and its mesh stays.
-    if (options.soonest && leaves(plan_keys::kFineness) && out.sky == glm::dvec3(0.0))
-      out.mesh = coarseMesh(*surfaces, options, mesh_options, coarsest, decisions, cancel);
+    if (options.soonest && leaves(plan_keys::kFineness) && out.sky == glm::dvec3(0.0)) {
+      CoarseMesh found = coarseMesh(*surfaces, options, mesh_options, coarsest, decisions, cancel);
+      out.mesh = std::move(found.mesh);
+      if (out.mesh) out.solved = std::move(found.solved);
+    }
   }
   const bool coarse = coarsest && out.mesh;
   const auto meshed = [&](bool refinable) {
@@ -159,7 +162,7 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
     const bool follows = may_follow && by_rays;
     if (follows != to_refine) out.mesh = meshed(follows);
     to_refine = follows;
-    if (by_rays) decisions.push_back(withoutHemicubes(*out.mesh));
+    if (by_rays) decisions.push_back(withoutHemicubes(*out.mesh, options.error));
   }
   surfaces.reset();
   if (to_refine && !coarse) {
@@ -167,11 +170,11 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
     refinement.emitters = coarsest;
     out.mesh = refineForLight(std::move(out.mesh), refinement, cancel);
   }
-  if (to_refine && out.mesh->base) decisions.push_back(withoutEvenLight(*out.mesh));
-  out.whole_error = out.mesh->base || coarse;
+  if (to_refine && out.mesh->base) decisions.push_back(withoutEvenLight(*out.mesh, options.error));
   cancel.report(kMeshShare);
   const double plan_began = wallSeconds();
-  out.plan = makePlan(scene, *out.mesh, out.form_factors, options.do_anyway);
+  out.plan = makePlan(
+      {scene, *out.mesh, out.form_factors, options.error, options.emit_front_only, options.do_anyway});
   out.plan.insert(out.plan.end(), decisions.begin(), decisions.end());
   out.diagnostics = scene.diagnostics;
   out.diagnostics.insert(out.diagnostics.end(), out.mesh->diagnostics.begin(), out.mesh->diagnostics.end());

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "session/coarse_mesh.h"
 #include "session/scene_plan.h"
 #include "session/solve.h"
 
@@ -16,8 +18,8 @@ struct Preparation {
   std::string form_factors;  ///< key of the method: what `auto` became
   glm::dvec3 sky{0.0};       ///< its radiosity [W/m^2]: what was asked for, or what skyOver makes of it
   std::vector<PlanDecision> plan;
-  bool whole_error = false;  ///< the mesh was made for the error asked for: that is of the whole then
-  Diagnostics diagnostics;   ///< of scene, mesh, checks and choice of method
+  std::optional<SolvedAtOnce> solved;         ///< the mesh's light, where trying it has brought that
+  Diagnostics diagnostics;                    ///< of scene, mesh, checks and choice of method
   double mesh_seconds = 0, plan_seconds = 0;  ///< wall time
 };
 

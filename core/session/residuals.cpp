@@ -133,13 +133,14 @@ std::vector<glm::dvec3> patchMeans(const Residuals& residuals, const std::vector
 // reflected, weight, counts, of places[k].
 //
 // With K the true operator, e = r + K e. M in its place leaves the error r' = (K - M) e, which is a residual
-// again: the looks say what K makes of an error that is known per patch.
+// again: the looks say what K makes of an error that is known per patch. `exact`: both looks are alike.
 template <class Residuals>
 std::optional<Ratio> squaredError(const std::vector<ResidualPlace>& places, const Residuals& residuals,
-                                  const Mesh& mesh, const RadiosityState& state, const PatchMatrix& matrix) {
+                                  bool exact, const Mesh& mesh, const RadiosityState& state,
+                                  const PatchMatrix& matrix) {
   const std::size_t n = state.patchCount(), count = residuals.size();
   std::vector<glm::dvec3> error[2];
-  for (int look = 0; look < 2; ++look) {
+  for (int look = 0; look < (exact ? 1 : 2); ++look) {
     std::vector<glm::dvec3> residual, sum(count, glm::dvec3(0.0));
     for (const auto& r : residuals) residual.push_back(r.of_look[look]);
     for (int step = 0;; ++step) {
@@ -160,12 +161,13 @@ std::optional<Ratio> squaredError(const std::vector<ResidualPlace>& places, cons
     }
     error[look] = std::move(sum);
   }
+  const std::vector<glm::dvec3>&first = error[0], &second = error[exact ? 0 : 1];
   std::vector<double> t, s;
   for (std::size_t k = 0; k < count; ++k) {
     const auto& r = residuals[k];
     if (!r.counts) continue;
-    t.push_back(r.weight * glm::dot(error[0][k], error[1][k]));
-    s.push_back(r.weight * glm::dot(r.reflected + error[0][k], r.reflected + error[1][k]));
+    t.push_back(r.weight * glm::dot(first[k], second[k]));
+    s.push_back(r.weight * glm::dot(r.reflected + first[k], r.reflected + second[k]));
   }
   return ratioOf(t, s);
 }
@@ -269,7 +271,7 @@ ErrorEstimates Residuals::estimate(const RadiosityState& state, const PatchMatri
   const std::vector<ResidualPlace>&points = places_.points(), &receivers = places_.receivers();
   if (points.empty() || (receivers.empty() && !places_.exact())) return out;
   const auto squared = [&](const std::vector<ResidualPlace>& places, const std::vector<Residual>& residuals) {
-    return squaredError(places, residuals, mesh_, state, matrix);
+    return squaredError(places, residuals, places_.exact(), mesh_, state, matrix);
   };
   const std::optional<Ratio> both = squared(points, pointResiduals(state, shown, false));
   // Exact looks are by the factors themselves.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kKind = "unshot solve";
 // To be raised when the file changes, or what form-factor methods and mesh mean by the same options.
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 
 // What the file holds, for writing (constant values) and for reading.
 
@@ -26,8 +26,8 @@ template <class Archive, class Saved>
 void transferHead(Archive& a, Saved& s) {
   a.fields(s.scene_hash, s.form_factors, s.emit_front_only, s.sky, s.seed);
   a.fields(s.hemicube_resolution, s.hemicube_drawing, s.mode, s.error);
-  a.list(s.plan,
-         [&](auto& decision) { a.fields(decision.key, decision.what, decision.why, decision.saving); });
+  a.list(s.plan, [&](auto& d) { a.fields(d.key, d.what, d.why, d.saving, d.bound); });
+  a.list(s.do_anyway, [&](auto& key) { a.fields(key); });
   a.fields(s.quality, s.drafts_allowed, s.closure.scale, s.closure.exact, s.closure_pending);
   a.fields(s.seconds, s.cpu_seconds, s.mesh_seconds, s.plan_seconds);
   a.fields(s.shots, s.rows, s.drawn, s.history, s.state, s.stopped_by);
@@ -48,6 +48,8 @@ SolveOptions SavedSolve::options(SolveOptions options) const {
   options.hemicube_resolution = hemicube_resolution;
   options.hemicube_drawing = hemicube_drawing;
   options.mesh = mesh;
+  for (const std::string& key : do_anyway)
+    if (leavesOut(options.do_anyway, key)) options.do_anyway.push_back(key);
   if (options.mode == "auto") options.mode = mode;
   return options;
 }
@@ -81,6 +83,7 @@ SavedSolve Solve::Impl::head() const {
   head.error = options.error;
   head.mesh = mesh;
   head.plan = plan;
+  head.do_anyway = options.do_anyway;
   for (std::uint32_t q = 0; q < transport->patchCount(); ++q) {
     const auto quality = transport->quality(q);
     head.quality.push_back(quality ? static_cast<std::uint8_t>(*quality) : SavedSolve::kUnused);
@@ -134,6 +137,7 @@ void Solve::Impl::restore(SavedSolve& saved) {
   if (saved.quality.size() != transport->patchCount() || !state->setValues(std::move(saved.values)))
     refuse("does not fit its own mesh");
   plan = std::move(saved.plan);
+  std::erase_if(plan, [this](const PlanDecision& d) { return !leavesOut(options.do_anyway, d.key); });
   closure_pending = closure_pending && saved.closure_pending;
   if (!saved.closure.scale.empty() && (saved.closure.scale.size() != transport->receiverCount() ||
                                        saved.closure.exact.size() != transport->patchCount()))

@@ -33,6 +33,7 @@ struct SavedSolve {
 
   std::shared_ptr<const Mesh> mesh;
   std::vector<PlanDecision> plan;
+  DoAnyway do_anyway;  ///< what the plan was not to leave out
 
   RadiosityState::Values values;
   std::vector<std::uint8_t> quality;  ///< ColumnQuality, one per source; kUnused where a column is not in use

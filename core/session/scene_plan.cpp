@@ -11,7 +11,8 @@
 namespace unshot {
 namespace {
 
-constexpr std::string_view kExact = "exact: the light is the same to rounding";
+// Where the program chooses the fineness, fewer sides have finer elements.
+constexpr std::string_view kExact = "exact: none of the light is left out, on the same elements";
 
 constexpr PlanRow kRows[] = {
     {{plan_keys::kOuterSides, "Sides that see nothing", "elements where nothing of the scene lies in front"},
@@ -32,20 +33,20 @@ constexpr PlanRow kRows[] = {
      "within the error asked for, by estimate"},
     {{plan_keys::kFineness, "Elements that the error does not ask for",
       "a mesh finer than a coarse one that was tried and is good enough"},
-     "within the error asked for, by estimate"},
-    {{plan_keys::kBlackPatches, "Form factors of black patches", "columns along which nothing is sent"},
-     kExact}};
+     "within the error asked for, by estimate"}};
 
 const PlanRow& rowOf(std::string_view key) { return findChoice(planRows(), key, "decision of the plan"); }
 
-PlanDecision decision(std::string_view key, std::string what, std::string why, std::string saving) {
-  return {std::string(key), std::move(what), std::move(why), std::move(saving)};
+PlanDecision decision(std::string_view key, std::string what, std::string why, std::string saving,
+                      double bound = 0) {
+  return {std::string(key), std::move(what), std::move(why), std::move(saving), bound};
 }
 
 // Of sides without elements.
-void addSides(const Mesh& mesh, std::vector<PlanDecision>& out) {
+void addSides(const PlannedSolve& solve, std::vector<PlanDecision>& out) {
+  const Mesh& mesh = solve.mesh;
   struct Left {
-    std::size_t sides = 0;
+    std::size_t sides = 0, emit = 0;
     double area = 0;
   } outer, dark;
   std::size_t unlit = 0;
@@ -55,6 +56,7 @@ void addSides(const Mesh& mesh, std::vector<PlanDecision>& out) {
       if (s.side[back] != kNone) continue;
       Left& left = s.outer[back] ? outer : dark;
       ++left.sides;
+      left.emit += mesh.materials[s.material].emits() && !(back && solve.emit_front_only);
       left.area += s.area;
     }
   }
@@ -65,10 +67,13 @@ void addSides(const Mesh& mesh, std::vector<PlanDecision>& out) {
                            "elements on " + std::to_string(left.sides) + " of " +
                                std::to_string(2 * mesh.surfaces.size()) + " surface sides",
                            std::move(why),
-                           std::to_string(static_cast<int>(100 * share + 0.5)) + " % of the elements"));
+                           std::to_string(static_cast<int>(100 * share + 0.5)) + " % of the area"));
   };
   add(plan_keys::kOuterSides, outer,
-      "nothing of the scene lies in front of them, so no light can reach them");
+      "nothing of the scene lies in front of them, so no light can reach them" +
+          (outer.emit == 0 ? ""
+                           : "; what " + std::to_string(outer.emit) + " of them emit" +
+                                 (outer.emit == 1 ? "s" : "") + " meets nothing and is left out too"));
   add(plan_keys::kDarkSides, dark,
       "closed surfaces lie between them and every light" +
           (unlit == 0 ? ""
@@ -107,52 +112,45 @@ bool doesAll(const DoAnyway& done) {
                       [&](const PlanRow& row) { return leavesOut(done, row.info.key); });
 }
 
-std::vector<PlanDecision> makePlan(const Scene& scene, const Mesh& mesh, std::string_view form_factors,
-                                   const DoAnyway& done) {
+std::vector<PlanDecision> makePlan(const PlannedSolve& solve) {
+  const Mesh& mesh = solve.mesh;
   std::vector<PlanDecision> out;
-  addSides(mesh, out);
-  if (scene.triangle_count > mesh.surfaces.size() && leavesOut(done, plan_keys::kTriangles)) {
-    out.push_back(decision(plan_keys::kTriangles,
-                           "borders inside " + std::to_string(mesh.surfaces.size()) + " surfaces",
-                           std::to_string(scene.triangle_count) +
-                               " triangles of the scene join into them: same plane and material",
-                           "elements as fine as the light needs, not as the input was cut"));
+  addSides(solve, out);
+  const std::size_t polygons = solve.scene.polygons.size();
+  if (polygons > mesh.surfaces.size() && leavesOut(solve.done, plan_keys::kTriangles)) {
+    out.push_back(decision(
+        plan_keys::kTriangles, "borders inside " + std::to_string(mesh.surfaces.size()) + " surfaces",
+        std::to_string(polygons) + " polygons of the scene join into them: same plane and material",
+        "elements as fine as the light needs, not as the input was cut", solve.error));
   }
-  if (form_factors == "closed-form" && nothingCanOcclude(mesh)) {
+  if (solve.form_factors == "closed-form" && nothingCanOcclude(mesh)) {
     out.push_back(decision(plan_keys::kOcclusion, "occlusion tests, hemicubes and OpenGL for the solution",
                            "every surface has the whole scene on one side of its plane, so nothing can stand "
                            "between two points",
                            "all pictures; the form factors are exact"));
   }
-  std::size_t black = 0;
-  for (const std::uint32_t side : mesh.patch_side) {
-    black += mesh.sides[side].reflectance == glm::dvec3(0.0) && mesh.sides[side].emission == glm::dvec3(0.0);
-  }
-  if (black > 0 && leavesOut(done, plan_keys::kBlackPatches)) {
-    out.push_back(decision(
-        plan_keys::kBlackPatches,
-        "shots from " + std::to_string(black) + " of " + std::to_string(mesh.patch_count) + " patches",
-        "they are black and send nothing", "their columns"));
-  }
   return out;
 }
 
-PlanDecision withoutHemicubes(const Mesh& mesh) {
+PlanDecision withoutHemicubes(const Mesh& mesh, double error) {
   return decision(plan_keys::kHemicubes, "hemicubes and OpenGL for the solution",
                   "shadow rays see as much from " + std::to_string(mesh.vertices.size()) +
                       " vertices sooner and more exactly",
-                  "all pictures");
+                  "all pictures", error);
 }
 
-PlanDecision withoutFineness(const Mesh& mesh, double error, double usual) {
+PlanDecision withoutFineness(const Mesh& mesh, double error, const ErrorEstimate& found, double usual) {
+  const auto percent = [](double x) { return figureText(100 * x) + " %"; };
   return decision(plan_keys::kFineness, "elements finer than the light needs",
                   "a mesh of " + std::to_string(mesh.element_count) +
-                      " was solved at once, and at points all over it the light is within " +
-                      figureText(100 * error) + " % of what arrives there",
-                  std::to_string(mesh.element_count) + " elements instead of some " + figureText(usual));
+                      " elements was solved at once, and by exact factors at " +
+                      std::to_string(found.places) + " points its light is within about " +
+                      percent(found.value) + " (" + percent(found.low) + " to " + percent(found.high) + ")",
+                  std::to_string(mesh.element_count) + " elements instead of some " + figureText(usual),
+                  error);
 }
 
-PlanDecision withoutEvenLight(const Mesh& mesh) {
+PlanDecision withoutEvenLight(const Mesh& mesh, double error) {
   // As fine everywhere as one in twenty elements: slivers, which cuts leave, do not count.
   std::vector<double> areas = mesh.element_area;
   const auto fine = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 20);
@@ -161,7 +159,8 @@ PlanDecision withoutEvenLight(const Mesh& mesh) {
       plan_keys::kEvenLight, "fine elements where direct light is even",
       "it is what interpolation makes of it there; other light takes the vertices of " +
           std::to_string(mesh.base->element_count) + " even elements",
-      std::to_string(mesh.element_count) + " elements instead of some " + figureText(mesh.lit_area / *fine));
+      std::to_string(mesh.element_count) + " elements instead of some " + figureText(mesh.lit_area / *fine),
+      error);
 }
 
 }  // namespace unshot

@@ -10,6 +10,7 @@
 #include "base/choice.h"
 #include "mesh/mesh.h"
 #include "scene/scene.h"
+#include "session/residuals.h"
 
 namespace unshot {
 
@@ -30,7 +31,6 @@ inline constexpr std::string_view kOcclusion = "occlusion";
 inline constexpr std::string_view kHemicubes = "hemicubes";
 inline constexpr std::string_view kEvenLight = "even-light";
 inline constexpr std::string_view kFineness = "fineness";
-inline constexpr std::string_view kBlackPatches = "black-patches";
 }  // namespace plan_keys
 
 /// Keys of what is done all the same.
@@ -50,18 +50,29 @@ struct PlanDecision {
   std::string what;
   std::string why;
   std::string saving;
+  /// nRMSE of reflected light that it may cost; 0: none but rounding.
+  double bound = 0;
 
   std::string_view sure() const;  ///< of its row
 };
 
-/// Those that hold for the scene and its mesh, with this form-factor method.
-std::vector<PlanDecision> makePlan(const Scene& scene, const Mesh& mesh, std::string_view form_factors,
-                                   const DoAnyway& done);
+/// What is known when all but the first shot is done.
+struct PlannedSolve {
+  const Scene& scene;
+  const Mesh& mesh;
+  std::string_view form_factors;  ///< key of the method
+  double error = 0.01;            ///< asked for
+  bool emit_front_only = false;
+  const DoAnyway& done;
+};
+
+/// The decisions that hold for it.
+std::vector<PlanDecision> makePlan(const PlannedSolve& solve);
 /// That rays stand in for hemicubes.
-PlanDecision withoutHemicubes(const Mesh& mesh);
-/// That a coarse mesh does, of which the error is estimated to be this in place of that of `usual` elements.
-PlanDecision withoutFineness(const Mesh& mesh, double error, double usual);
+PlanDecision withoutHemicubes(const Mesh& mesh, double error);
+/// That a coarse mesh does, of which the error is estimated to be this, in place of one of `usual` elements.
+PlanDecision withoutFineness(const Mesh& mesh, double error, const ErrorEstimate& found, double usual);
 /// That the mesh follows the light.
-PlanDecision withoutEvenLight(const Mesh& mesh);
+PlanDecision withoutEvenLight(const Mesh& mesh, double error);
 
 }  // namespace unshot

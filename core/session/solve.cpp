@@ -72,7 +72,6 @@ void Solve::Impl::setUp(const std::function<gl::Context&()>& gl, const CancelTok
   seconds.mesh = prepared.mesh_seconds;
   seconds.plan = prepared.plan_seconds;
   sky = prepared.sky;
-  whole_error = prepared.whole_error;
 
   cancel.check();
   makeTransport(gl, cancel);
@@ -96,10 +95,23 @@ void Solve::Impl::setUp(const std::function<gl::Context&()>& gl, const CancelTok
     if (column.escape > 0) noteOpening(column.escape);
   });
   planClosure(cancel);
-  if (transport->receivers().layered() && !options.bounces)
+  if (mesh->for_error && transport->receivers().kind == ReceiverKind::kVertices && !options.bounces)
     local_pass =
         std::make_unique<LocalPass>(*mesh, transport->receivers(), form_factors_key != "closed-form");
   bounces_of_light = std::make_unique<Bounces>(mesh, *transport, *state);
+  if (prepared.solved) beginWith(std::move(*prepared.solved));
+}
+
+// Its columns are there in any case; what is asked of a mode in particular, that mode does.
+void Solve::Impl::beginWith(SolvedAtOnce solved) {
+  for (std::uint32_t q = 0; q < mesh->patch_count; ++q) transport->restore(q, std::move(solved.columns[q]));
+  rows_before = transport->computed() - mesh->patch_count;
+  // Where much is reflected, rows are closed first.
+  begun_solved = options.mode == "auto" && !options.max_shots && !options.bounces && !high_gain &&
+                 state->setValues(std::move(solved.values));
+  if (!begun_solved) return;
+  closure_pending = false;  // the trial has shown that its rows are good enough
+  if (local_pass) local_pass->restore(std::move(solved.local_irradiance));
 }
 
 void Solve::Impl::begin() {
@@ -281,13 +293,14 @@ void Solve::step(std::uint64_t most_shots) {
 
 void Solve::Impl::advance(std::uint64_t most_shots) {
   if (finished_by) return sharpen();
+  if (begun_solved && measures.shots == 0) return finishBegun();
   bool nothing_left = false;
   bool refined = true;
   if (closeRows()) {
     // Nothing else in this step: what it has brought is looked at first.
   } else if (drafts.due(*transport, measures.solverBound() <= target())) {
     refine();
-  } else if (computeBlackColumn() || ((lacksBound() || closureIsUrgent()) && completeColumns())) {
+  } else if ((lacksBound() || closureIsUrgent()) && completeColumns()) {
     refined = false;
   } else if (iterate(most_shots)) {
     refined = false;
@@ -318,6 +331,7 @@ void Solve::Impl::advance(std::uint64_t most_shots) {
 void Solve::again() {
   Impl& s = *impl_;
   s.state->reset();
+  s.begun_solved = false;
   s.budget->restart();
   s.mode.reset();
   s.shared.forgetDirect();

@@ -14,14 +14,12 @@ constexpr double kSolverShare = 0.4;
 constexpr double kLittleUnshot = 0.25;
 // Of the power that is accounted for: rounding leaves 1e-9 at most (10,000 scenes of the property tests).
 constexpr double kMostDrift = 1e-6;
-// Of the local pass: beside an edge one wall's light depends on the other's there.
-constexpr int kLocalPasses = 2;
 // What asks for a word is surely above the error asked for, and by estimate so many times as large.
 constexpr double kFarAbove = 3;
 
 }  // namespace
 
-double Solve::Impl::target() const { return whole_error ? kSolverShare * options.error : options.error; }
+double Solve::Impl::target() const { return mesh->for_error ? kSolverShare * options.error : options.error; }
 
 void Solve::Impl::stop(SolveState how, std::string why) {
   progress_state = how;
@@ -38,11 +36,20 @@ void Solve::Impl::finish(std::string why) {
   // A bound there is only where light dies out; then what lies below zero is the error that it allows.
   if (measures.solverBound() == kNoBound && !isLight(*state)) return failWithoutSolution();
   last_sweeps = {};
-  if (whole_error && !options.max_shots && !options.bounces) last_sweeps.begin();
-  local_passes_left = local_pass ? kLocalPasses : 0;
+  if (mesh->for_error && !options.max_shots && !options.bounces) last_sweeps.begin();
+  local_passes_left = local_pass ? LocalPass::kPasses : 0;
   if (local_pass) local_pass->abandon();
   if (!last_sweeps.running() && local_passes_left == 0) return stop(SolveState::kConverged, std::move(why));
   finished_by = std::move(why);
+}
+
+// Begun with the light of a trial, which leaves nothing to be done where its bound says so.
+void Solve::Impl::finishBegun() {
+  begun_solved = false;
+  measure();
+  measures.bounds = SolverBounds::tighter(measures.bounds, budget->sharpen());
+  if (measures.solverBound() <= target()) stop(SolveState::kConverged, "solver_upper");
+  record();
 }
 
 // Goes on with the last sweeps and the local pass, which bring the good end nearer to the truth but are no
@@ -54,7 +61,7 @@ void Solve::Impl::sharpen() {
     measures.shots += last_sweeps.advance(*state, *transport);
   } else if (local_pass) {
     if (!local_pass->running()) {
-      const bool first = local_passes_left-- == kLocalPasses;
+      const bool first = local_passes_left-- == LocalPass::kPasses;
       local_pass->begin(
           *state, makeField(*mesh, transport->receivers(), first ? state->irradiance() : shownIrradiance()));
     }
@@ -85,18 +92,6 @@ bool Solve::Impl::completeColumns() {
     const bool black = state->reflectance()[next_column] == glm::dvec3(0.0);
     if (transport->quality(next_column) || (black && !closureIsDue())) continue;
     transport->column(next_column++);
-    return true;
-  }
-  return false;
-}
-
-// The column of a black patch, where the plan is not to leave it out.
-bool Solve::Impl::computeBlackColumn() {
-  if (leavesOut(options.do_anyway, plan_keys::kBlackPatches)) return false;
-  for (; next_black < mesh->patch_count; ++next_black) {
-    const bool black = state->reflectance()[next_black] == glm::dvec3(0.0) && !mesh->emits(next_black);
-    if (!black || transport->quality(next_black)) continue;
-    transport->column(next_black++);
     return true;
   }
   return false;
@@ -178,7 +173,7 @@ void Solve::Impl::noteMissingRoom() {
 // Once, where the mesh was to be as fine as the error asks for and is far from it.
 void Solve::Impl::noteMissedError() {
   const ErrorEstimate& estimate = budget->estimates().total;
-  if (error_noted || !whole_error || progress_state != SolveState::kConverged ||
+  if (error_noted || !mesh->for_error || progress_state != SolveState::kConverged ||
       estimate.low <= options.error || estimate.value < kFarAbove * options.error)
     return;
   error_noted = true;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "session/bounces.h"
+#include "session/coarse_mesh.h"
 #include "session/draft_refinement.h"
 #include "session/error_budget.h"
 #include "session/fields.h"
@@ -36,8 +37,6 @@ struct Solve::Impl {
   SolveOptions options;
   Scene scene;
   std::shared_ptr<const Mesh> mesh;
-  // The error asked for is that of the whole. Of a given mesh it itself tells alone.
-  bool whole_error = false;
   glm::dvec3 sky{0.0};  // its radiosity [W/m^2]: the source behind all patches; 0: there is none
   std::string mode_key, form_factors_key;
   std::vector<PlanDecision> plan;
@@ -64,8 +63,7 @@ struct Solve::Impl {
   Measures measures;
   std::vector<HistoryEntry> history;
   bool resting = false, mode_failed = false, room_noted = false, error_noted = false;
-  std::uint32_t next_black = 0;   // black patches before are known
-  std::uint32_t next_column = 0;  // all before are known, or nothing arrives there
+  std::uint32_t next_column = 0;  // all before are known, or nothing is sent from there
   // Whether rows are still to be closed (formfactor/closure.h), and what escapes of each receiver's view
   // where that is known; empty: no surface has seen an opening so far.
   bool closure_pending = false, high_gain = false;
@@ -79,6 +77,7 @@ struct Solve::Impl {
   std::optional<std::string> finished_by;  // what ends the solve once what follows is through
   LastSweeps last_sweeps;
   int local_passes_left = 0;
+  bool begun_solved = false;  // by the trial of its mesh, whose local pass is at its end too
 
   Impl(Scene scene_in, SolveOptions options_in)
       : options(std::move(options_in)), scene(std::move(scene_in)) {}
@@ -89,6 +88,7 @@ struct Solve::Impl {
   void begin();
   void endWithoutLight();
   void takeOver(Impl& before);
+  void beginWith(SolvedAtOnce solved);
   SavedSolve head() const;
   void restore(SavedSolve& saved);
   void takeUp(const SavedSolve& saved);
@@ -109,13 +109,13 @@ struct Solve::Impl {
   double target() const;
   std::vector<glm::dvec3> shownIrradiance() const;
   void finish(std::string why);
+  void finishBegun();
   void sharpen();
   void record();
   void refine();
   void advance(std::uint64_t most_shots);
   bool lacksBound() const;
   bool completeColumns();
-  bool computeBlackColumn();
   void planClosure(const CancelToken& cancel);
   void noteOpening(double escape);
   bool closureIsDue() const;

@@ -78,19 +78,6 @@ TEST(Plan, LeavesOutDarkSidesOnlyInRandomScenes) {
   EXPECT_GT(scenes, 10u);
 }
 
-TEST(Plan, LeavesOutWhatBlackPatchesWouldSend) {
-  const auto make = [] {
-    std::array<Material, 6> materials;
-    materials.fill({"grey", glm::dvec3(0.5), glm::dvec3(0.0)});
-    materials[1].emission = glm::dvec3(1);
-    materials[2].reflectance = materials[3].reflectance = glm::dvec3(0.0);
-    return cubeScene(materials);
-  };
-  const Pair pair = solvedBothWays(make, optionsOf("rays", 400, 1e-6), plan_keys::kBlackPatches);
-  EXPECT_LT(pair.without->measures().rows, pair.with->measures().rows);
-  EXPECT_LT(difference(*pair.with, *pair.without), 1e-6);
-}
-
 // Rays then see that nothing occludes: the same factors, but for single precision.
 TEST(Plan, LeavesOutTestsOfOcclusionWhereNothingCanOcclude) {
   for (const double rho : {0.5, 0.9}) {

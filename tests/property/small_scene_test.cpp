@@ -5,7 +5,9 @@
 #include "session/scene_plan.h"
 #include "support/dice.h"
 #include "support/plan_pairs.h"
+#include "support/run_program.h"
 #include "support/sanitized.h"
+#include "support/scenes.h"
 #include "support/test_scenes.h"
 
 namespace unshot {
@@ -50,7 +52,7 @@ TEST(SmallScene, TakesCoarseMeshesWithinTheErrorOnly) {
     EXPECT_GT(with->mesh().element_count, without->mesh().element_count);
     const double apart = difference(*without, *with);
     measured("apart over the error asked for", apart / error);
-    EXPECT_LT(apart, error) << seed;
+    EXPECT_LT(apart, error + options.error) << seed;  // that of either
   }
   EXPECT_GE(taken, 4u);
 }
@@ -136,12 +138,11 @@ TEST(SmallScene, KeepsTheChannelsOfAWallThatIsBlackInTwo) {
   SolveOptions options = soonest(0.02);
   options.emit_front_only = true;
   const auto without = solved(make(), options);
-  EXPECT_EQ(keysOf(*without).count("black-patches"), 0u);
   options.do_anyway = doAll();
   options.form_factors = "closed-form";
   options.error = 0.005;
   const auto with = solved(make(), options);
-  EXPECT_LT(difference(*without, *with), 0.02);
+  EXPECT_LT(difference(*without, *with), 0.02 + options.error);
   const auto radiosity = sideRadiosities(without->snapshot());
   for (std::size_t s = 0; s < radiosity.size(); ++s) {
     EXPECT_EQ(radiosity[s].z, 0);
@@ -152,12 +153,47 @@ TEST(SmallScene, KeepsTheChannelsOfAWallThatIsBlackInTwo) {
   }
 }
 
+// The light of the trial is the solve's: nothing is computed twice, and its error is the one that was judged.
+// What a mode is asked to do, that mode does, along the same columns.
+TEST(SmallScene, BeginsWithTheLightOfItsTrial) {
+  const TempFolder folder;
+  const std::string path = writeRoom(folder);
+  SolveOptions options = soonest(0.02);
+  options.emit_front_only = true;
+  auto solve = begun(readObj(path), options);
+  ASSERT_EQ(keysOf(*solve).count("fineness"), 1u);
+  EXPECT_EQ(solve->measures().rows, solve->mesh().patch_count);
+  solve->step();
+  EXPECT_EQ(solve->state(), SolveState::kConverged);
+  EXPECT_EQ(solve->measures().rows, solve->mesh().patch_count);
+  EXPECT_LT(solve->measures().solverBound(), 0.4 * options.error);
+  const double estimate = solve->estimate(256).total.value;
+  measured("error by estimate over what was asked for", estimate / options.error);
+  EXPECT_LT(estimate, options.error);
+  options.mode = "gauss-seidel";
+  const auto by_mode = solved(readObj(path), options);
+  EXPECT_EQ(by_mode->measures().rows, by_mode->mesh().patch_count);
+  EXPECT_GT(by_mode->measures().shots, by_mode->mesh().patch_count);
+  EXPECT_LT(difference(*solve, *by_mode), options.error);
+  // From nothing again, along the same columns.
+  solve->again();
+  EXPECT_EQ(solve->measures().unshot_fraction, 1);
+  while (solve->state() == SolveState::kRunning) solve->step();
+  EXPECT_GT(solve->measures().shots, 0u);
+  EXPECT_LT(difference(*solve, *by_mode), options.error);
+}
+
 // What is left out of a small scene whose light is even or smooth. Twenty times is asked for; both runs are
-// in one process and on one clock of CPU, and the furnace takes a two-hundredth here, the patches a fortieth.
+// in one process and on one clock of CPU, and the furnace takes a three-hundredth here, the others a fiftieth
+// to a hundredth.
 TEST(SmallScene, MakesShortWorkOfSmallScenes) {
   if (kSanitized) GTEST_SKIP() << "everything takes far longer";
-  for (const std::string name : {"furnace", "two_patches"}) {
-    const auto make = [&] { return readObj(UNSHOT_SOURCE_DIR "/assets/" + name + ".obj"); };
+  const TempFolder folder;
+  const std::filesystem::path assets(UNSHOT_SOURCE_DIR "/assets");
+  for (const std::filesystem::path& path :
+       {assets / "furnace.obj", assets / "two_patches.obj", std::filesystem::path(writeRoom(folder))}) {
+    const std::string name = path.stem().string();
+    const auto make = [&] { return readObj(path); };
     SolveOptions options = soonest(0.01);
     options.emit_front_only = true;
     const auto seconds = [&](const SolveOptions& how) {

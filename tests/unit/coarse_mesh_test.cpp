@@ -43,7 +43,7 @@ TEST(CoarseMesh, IsTheFirstTriedWhereLightIsEven) {
   ASSERT_TRUE(found.mesh);
   EXPECT_EQ(trials.tried.size(), 1u);
   EXPECT_LT(found.mesh->element_count, 60u);
-  EXPECT_LT(found.error.high, 1e-4);
+  EXPECT_LT(found.solved.error.high, 1e-4);
 }
 
 // In a room with one bright wall errors fall slowly: what would be needed is known from the first trials,
@@ -59,7 +59,7 @@ TEST(CoarseMesh, IsFinerTheSmallerTheError) {
   for (const double error : {0.2, 0.02}) {
     const CoarseMesh found = Trials{parallelSquares(0.5)}.find(error);
     ASSERT_TRUE(found.mesh) << error;
-    EXPECT_LE(found.error.high, 1.5 * error);
+    EXPECT_LE(found.solved.error.high, 1.5 * error);
     EXPECT_GT(found.mesh->element_count, before);
     before = found.mesh->element_count;
   }

@@ -191,28 +191,5 @@ TEST(Pick, SaysWhereAMeshThatFollowsTheLightIsFine) {
   EXPECT_EQ(texts, (std::set<std::string>{"A coarse", "A fine e"}));
 }
 
-TEST(Pick, SaysThatBlackPatchesNeverShoot) {
-  SceneBuilder b;
-  const auto black = b.material("black", glm::dvec3(0.0)),
-             light = b.material("light", glm::dvec3(0.5), glm::dvec3(1));
-  addBox(b, {black, light, light, light, light, light}, {0, 0, 0}, {1, 1, 1}, true);
-  SolveOptions options;
-  options.elements = 100;
-  const Solve solve(b.finish(), options, {});
-  const Mesh& mesh = solve.mesh();
-  int found = 0;
-  for (const glm::dvec3 direction : {glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0),
-                                     glm::dvec3(0, -1, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -1)}) {
-    const auto pick = pickAlong(mesh, glm::dvec3(0.4, 0.5, 0.6) - mesh.frame_origin, direction);
-    ASSERT_TRUE(pick);
-    const bool is_black = mesh.surfaces[pick->surface].material == black;
-    found += is_black;
-    const auto keys = keysOf(decisionsFor(mesh, *pick, solve.plan()));
-    EXPECT_THAT(keys, testing::Contains(plan_keys::kOcclusion));
-    EXPECT_EQ(std::count(keys.begin(), keys.end(), plan_keys::kBlackPatches), is_black);
-  }
-  EXPECT_EQ(found, 1);
-}
-
 }  // namespace
 }  // namespace unshot

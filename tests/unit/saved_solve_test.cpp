@@ -137,6 +137,29 @@ TEST(SavedSolves, GoOnInAnotherModeWhereItIsAskedFor) {
   EXPECT_EQ(next->state(), SolveState::kConverged);
 }
 
+// And for what error the mesh was made: that of the whole.
+TEST(SavedSolves, KeepWhatThePlanWasNotToLeaveOut) {
+  const TempFolder folder;
+  SolveOptions options;
+  options.form_factors = "rays";
+  options.error = 0.1;
+  options.do_anyway = {std::string(plan_keys::kTriangles)};
+  const auto solve = begun(roomToSave(), options);
+  ASSERT_TRUE(solve->mesh().for_error);
+  run(*solve, 3);
+  solve->save(folder.path() / "solve");
+  SolveOptions other;
+  other.do_anyway = {std::string(plan_keys::kOuterSides)};
+  const auto next = resumed(roomToSave(), other, folder.path() / "solve");
+  EXPECT_TRUE(next->mesh().for_error);
+  for (const std::string_view key : {plan_keys::kTriangles, plan_keys::kOuterSides}) {
+    EXPECT_FALSE(leavesOut(next->options().do_anyway, key)) << key;
+    EXPECT_TRUE(std::none_of(next->plan().begin(), next->plan().end(), [&](const PlanDecision& d) {
+      return d.key == key;
+    })) << key;
+  }
+}
+
 TEST(SavedSolves, CountLimitsFromWhereTheyGoOn) {
   const TempFolder folder;
   SolveOptions options = optionsToSave({"rays", "southwell"});
