@@ -53,11 +53,20 @@ void requireDecoded(const StbPixels<Value>& pixels, const std::filesystem::path&
 struct Source {
   std::string_view bytes;
   const CancelToken& cancel;
+  // The reader of Radiance's format goes round for ever where bytes end within a row; it is given ends of
+  // lines then, as long as it asks: they end a head, and are runs of ten in a row.
+  bool padded = false;
+  bool ran_out = false;
   std::size_t at = 0;
 
   static int read(void* user, char* data, int size) {
     auto& source = *static_cast<Source*>(user);
-    if (source.cancel.requested()) return 0;
+    if (source.cancel.requested() || source.at == source.bytes.size()) {
+      source.ran_out = true;
+      if (!source.padded) return 0;
+      std::fill_n(data, size, '\n');
+      return size;
+    }
     const std::string_view piece = source.bytes.substr(source.at, static_cast<std::size_t>(size));
     std::copy(piece.begin(), piece.end(), data);
     source.at += piece.size();
@@ -147,9 +156,12 @@ PictureFile readPicture(const std::filesystem::path& path, const CancelToken& ca
   const auto size = [&] { return 3 * std::size_t(image.width) * std::size_t(image.height); };
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   if (stbi_is_hdr_from_memory(data, static_cast<int>(bytes.size()))) {
+    source.padded = true;
     const StbPixels<float> pixels(
         stbi_loadf_from_callbacks(&kSource, &source, &image.width, &image.height, &channels, 3));
     requireDecoded(pixels, path, cancel);
+    if (source.ran_out)
+      throw Error(ErrorKind::kInput, "this picture is cut short", path.string(), "another file");
     image.rgb.assign(pixels.get(), pixels.get() + size());
     return {std::move(image), true};
   }

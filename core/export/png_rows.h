@@ -1,5 +1,5 @@
 // PNG written and read row by row, so that both tell how far they are and can be given up at any row. Home of
-// zlib.
+// libpng.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ void encodePng(const Image8& image, const std::function<void(std::string_view)>&
                const CancelToken& cancel = {});
 
 /// The picture in linear values, decoded from sRGB; transparency is dropped. None where these bytes are no
-/// whole PNG, or one of an unusual kind: interlaced, with a palette, of fewer than 8 bits. Throws Cancelled.
+/// whole PNG, or an interlaced one. Throws Cancelled.
 std::optional<ImageF> decodePng(std::string_view bytes, const CancelToken& cancel = {});
 
 }  // namespace unshot

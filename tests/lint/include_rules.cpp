@@ -49,7 +49,7 @@ const std::vector<Home>& homes() {
       {"embree", {"core/rays/"}},
       {"xxhash", {"core/base/"}},
       {"Eigen", {"core/solver/"}},
-      {"zlib", {"core/export/png_rows"}},
+      {"png.h", {"core/export/png_rows"}},
       {"stb_image", {"core/scene/texture_mean.cpp", "core/export/image_files.cpp"}},
       {"CLI/", {"app/cli/"}},
       {"nlohmann/", {"core/report/", "app/cli/"}},

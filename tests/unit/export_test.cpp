@@ -225,6 +225,18 @@ TEST(ImageFiles, WritingAndReadingTellHowFarTheyAreAndEndWhereTheyAreGivenUp) {
   }
 }
 
+// At any length: within its head, a row and between two.
+TEST(ImageFiles, RefusesRadianceFilesThatAreCutShort) {
+  const TempFolder folder;
+  ImageF light{64, 8, std::vector<float>(64 * 8 * 3)};
+  for (std::size_t k = 0; k < light.rgb.size(); ++k) light.rgb[k] = static_cast<float>(k / 100 % 7);
+  writeHdr(folder / "a.hdr", light);
+  const std::string whole = folder.read("a.hdr");
+  EXPECT_NO_THROW(readImage(folder / "a.hdr"));
+  for (std::size_t length = 12; length < whole.size(); length += 13)
+    EXPECT_THROW(readImage(folder.write("cut.hdr", whole.substr(0, length))), Error) << length;
+}
+
 // Two pixels above two others; either order of bytes.
 TEST(ImageFiles, ReadPortableFloatMaps) {
   const TempFolder folder;
