@@ -11,15 +11,15 @@
 namespace unshot {
 namespace {
 
-// Where the program chooses the fineness, fewer sides have finer elements.
-constexpr std::string_view kExact = "exact: none of the light is left out, on the same elements";
+constexpr std::string_view kNoLightLost =
+    "none of the light is left out; elements and patches lie elsewhere, within the error asked for";
 
 constexpr PlanRow kRows[] = {
     {{plan_keys::kOuterSides, "Sides that see nothing", "elements where nothing of the scene lies in front"},
-     kExact},
+     kNoLightLost},
     {{plan_keys::kDarkSides, "Sides that no light can reach",
       "elements where closed surfaces lie between them and every light"},
-     kExact},
+     kNoLightLost},
     {{plan_keys::kTriangles, "Borders inside flat surfaces",
       "cuts where polygons of one material join in one plane"},
      "the same surfaces; elements lie elsewhere, within the error asked for"},
@@ -63,11 +63,11 @@ void addSides(const PlannedSolve& solve, std::vector<PlanDecision>& out) {
   const auto add = [&](std::string_view key, const Left& left, std::string why) {
     if (left.sides == 0) return;
     const double share = left.area / (outer.area + dark.area + mesh.lit_area);
-    out.push_back(decision(key,
-                           "elements on " + std::to_string(left.sides) + " of " +
-                               std::to_string(2 * mesh.surfaces.size()) + " surface sides",
-                           std::move(why),
-                           std::to_string(static_cast<int>(100 * share + 0.5)) + " % of the area"));
+    out.push_back(decision(
+        key,
+        "elements on " + std::to_string(left.sides) + " of " + std::to_string(2 * mesh.surfaces.size()) +
+            " surface sides",
+        std::move(why), std::to_string(static_cast<int>(100 * share + 0.5)) + " % of the area", solve.error));
   };
   add(plan_keys::kOuterSides, outer,
       "nothing of the scene lies in front of them, so no light can reach them" +
