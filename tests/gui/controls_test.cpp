@@ -193,7 +193,8 @@ TEST_F(Controls, WhatTheMouseRestsOnSaysWhatItIs) {
   int places = 0;
   // Down the names at the left of the panel, and across buttons.
   for (const float share : {0.08f, 0.9f}) {
-    for (float y = 2; y < std::min(box.Max.y, box.Min.y + panel->ContentSize.y); y += kMouseStep, ++places) {
+    for (float y = 2; y < std::min(box.Max.y, box.Min.y + panel->ContentSize.y);
+         y += 2 * kMouseStep, ++places) {
       mouseTo({box.Min.x + share * box.GetWidth(), y});
       frames(1);  // ImGui shows a new window one frame late
       const ImGuiWindow* tip = tooltipShown();
@@ -219,7 +220,7 @@ TEST_F(Controls, TooltipsStayWithinASmallWindow) {
   const ImGuiWindow* panel = childOf("panel", "sections");
   ASSERT_TRUE(panel);
   int tips = 0;
-  for (float y = 4; y < 356; y += kMouseStep) {
+  for (float y = 4; y < 356; y += 2 * kMouseStep) {
     mouseTo({panel->InnerRect.Min.x + 20, y});
     frames(1);
     const ImGuiWindow* tip = tooltipShown();

@@ -14,7 +14,7 @@
 
 namespace unshot::testing_support {
 
-inline constexpr float kMouseStep = 14;  // [px], less than any control is high
+inline constexpr float kMouseStep = 7;  // [px], less than any control is high
 
 /// A child window, such as the part of the panel that scrolls.
 inline const ImGuiWindow* childOf(const char* window, const char* child) {
