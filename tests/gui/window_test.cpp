@@ -116,14 +116,15 @@ TEST_F(Window, MouseAndFlight) {
   run.key("f");
   std::string now = run.sceneAtRest();
   const std::string framed = now;
+  // Low in the window: a line on a picture that was written stands at its top.
   const auto drag = [&](int button) {
     SCOPED_TRACE("button " + std::to_string(button));
-    xdotool("mousemove --window " + run.window() + " 60 120");
+    xdotool("mousemove --window " + run.window() + " 60 300");
     xdotool("mousedown " + std::to_string(button));
     int x = 60;
     EXPECT_TRUE(eventually([&] {
       x = x < 90 ? x + 5 : 60;
-      xdotool("mousemove --window " + run.window() + " " + std::to_string(x) + " 130");
+      xdotool("mousemove --window " + run.window() + " " + std::to_string(x) + " 310");
       return run.scene() != now || HasFailure();
     }));
     xdotool("mouseup " + std::to_string(button));
