@@ -98,6 +98,19 @@ bool PointTree::search(Meets&& meets, Visit&& visit) const {
 void PointTree::nearSegment(const glm::dvec3& a, const glm::dvec3& b, double distance,
                             const std::function<void(std::uint32_t)>& found) const {
   const glm::dvec3 low = glm::min(a, b) - distance, high = glm::max(a, b) + distance;
+  if (a == b) {
+    search(
+        [&](const Box& box) {
+          const glm::dvec3 off = a - glm::clamp(a, box.low, box.high);
+          return glm::dot(off, off) <= distance * distance;
+        },
+        [&](std::uint32_t k) {
+          const glm::dvec3 off = points_[k] - a;
+          if (glm::dot(off, off) <= distance * distance) found(k);
+          return false;
+        });
+    return;
+  }
   search(
       [&](const Box& box) {
         return glm::all(glm::lessThanEqual(box.low, high)) && glm::all(glm::lessThanEqual(low, box.high)) &&

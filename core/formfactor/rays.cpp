@@ -179,8 +179,7 @@ class ShadowRays final : public Visibility {
   }
 
   std::uint32_t occluded(const glm::dvec3& eye, std::span<const glm::dvec3> ends) const {
-    if (ends.size() > 1) return rays_.rays().occluded(eye, ends);
-    return !ends.empty() && rays_.rays().occluded(eye, ends[0]);
+    return ends.empty() ? 0 : rays_.occluded(eye, ends);
   }
 
   double emitterSeen(const ReceiverView& from, const glm::dvec3& eye, std::uint32_t q) {

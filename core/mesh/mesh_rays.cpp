@@ -15,9 +15,23 @@ SceneRays raysOf(const Mesh& mesh) {
   return {mesh.positions, corners};
 }
 
+// Of the surfaces that can stand between two points; nothing where these are all.
+std::optional<SceneRays> raysBetween(const Mesh& mesh) {
+  const std::span<const ChartTriangle> triangles = litTriangles(mesh);
+  std::vector<std::uint32_t> corners;
+  for (const Surface& s : mesh.surfaces) {
+    if (!s.between || s.triangles.end() > triangles.size()) continue;
+    for (const ChartTriangle& t : triangles.subspan(s.triangles.first, s.triangles.count))
+      corners.insert(corners.end(), t.position, t.position + 3);
+  }
+  if (corners.size() == 3 * triangles.size()) return std::nullopt;
+  return SceneRays(mesh.positions, corners);
+}
+
 }  // namespace
 
-MeshRays::MeshRays(const Mesh& mesh) : mesh_(mesh), rays_(raysOf(mesh)), surface_of_(rays_.triangleCount()) {
+MeshRays::MeshRays(const Mesh& mesh)
+    : mesh_(mesh), rays_(raysOf(mesh)), between_(raysBetween(mesh)), surface_of_(rays_.triangleCount()) {
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
     const Range& range = mesh.surfaces[s].triangles;
     if (range.end() > surface_of_.size()) continue;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -24,7 +25,12 @@ class MeshRays {
 
   /// The first surface along the ray (`direction` of unit length). Any thread.
   std::optional<Hit> intersect(const glm::dvec3& origin, const glm::dvec3& direction) const;
-  /// For lifted(), occluded() and points on triangles.
+  /// As SceneRays::occluded(), of segments between lifted() points of lit sides: against those surfaces alone
+  /// that can stand between two points (Surface::between). Any thread.
+  std::uint32_t occluded(const glm::dvec3& a, std::span<const glm::dvec3> b) const {
+    return between_ ? between_->occluded(a, b) : rays_.occluded(a, b);
+  }
+  /// For lifted() and points on triangles.
   const SceneRays& rays() const { return rays_; }
   /// Surface of each of litTriangles().
   std::uint32_t surfaceOf(std::uint32_t triangle) const { return surface_of_[triangle]; }
@@ -32,6 +38,7 @@ class MeshRays {
  private:
   const Mesh& mesh_;
   SceneRays rays_;
+  std::optional<SceneRays> between_;  // none where it would be all of them
   std::vector<std::uint32_t> surface_of_;
 };
 

@@ -44,14 +44,20 @@ ElementSlopes::ElementSlopes(const Mesh& mesh, std::span<const glm::dvec3> light
   negligible_ = kNegligible * (whole > 0 ? sum / whole : 0);
 }
 
-glm::dvec3 ElementSlopes::excess(const ReceiverView& view, std::uint32_t e, std::span<const glm::dvec3> ring,
+glm::dvec3 ElementSlopes::excess(std::uint32_t e, const glm::dvec3& moment) const {
+  if (slopes_.empty()) return glm::dvec3(0.0);
+  const auto& gradient = slopes_[e].gradient;
+  return {glm::dot(gradient[0], moment), glm::dot(gradient[1], moment), glm::dot(gradient[2], moment)};
+}
+
+glm::dvec3 ElementSlopes::moment(const ReceiverView& view, std::uint32_t e, std::span<const glm::dvec3> ring,
                                  double factor, std::vector<glm::dvec3>& scratch) const {
   if (slopes_.empty()) return glm::dvec3(0.0);
-  return excess(view, slopes_[e], ring, factor, 0, scratch);
+  return moment(view, slopes_[e], ring, factor, 0, scratch);
 }
 
 // Halved across its longest sides until what is left is seen as small, or differs by little.
-glm::dvec3 ElementSlopes::excess(const ReceiverView& view, const Slope& slope,
+glm::dvec3 ElementSlopes::moment(const ReceiverView& view, const Slope& slope,
                                  std::span<const glm::dvec3> ring, double factor, int halvings,
                                  std::vector<glm::dvec3>& scratch) const {
   glm::dvec3 centre(0.0);
@@ -61,9 +67,9 @@ glm::dvec3 ElementSlopes::excess(const ReceiverView& view, const Slope& slope,
   const double radius = std::sqrt(square);
   if (factor * slope.steepest * radius <= negligible_ || halvings == kMostHalvings ||
       radius < kNarrow * glm::distance(centre, view.position))
-    return factor * slope.at(centre);
+    return factor * (centre - slope.centre);
   const auto part = [&](std::span<const glm::dvec3> of, double its) {
-    return excess(view, slope, of, std::max(its, 0.0), halvings + 1, scratch);
+    return moment(view, slope, of, std::max(its, 0.0), halvings + 1, scratch);
   };
   const auto factorOf = [&](std::span<const glm::dvec3> of) {
     return pointToPolygonFactor(view.position, view.normal, of, scratch);

@@ -21,11 +21,15 @@ class ElementSlopes {
   /// its display triangles.
   ElementSlopes(const Mesh& mesh, std::span<const glm::dvec3> light);
 
-  /// What the view has of a convex polygon of element e beyond `factor`, its Lambert factor, times the
-  /// element's mean light [W/m^2]. `ring`: its corners, counter-clockwise as seen from the view. Parts whose
-  /// light differs by so little that it brings less than kNegligible of the scene's mean light count as even.
-  glm::dvec3 excess(const ReceiverView& view, std::uint32_t e, std::span<const glm::dvec3> ring,
+  /// Of a convex polygon of element e: the sum, over parts of it, of what the view has of them, as Lambert
+  /// factors, times how far their middles are from that of the element [m]. `factor`: of all of it; `ring`:
+  /// its corners, counter-clockwise as seen from the view. Parts whose light differs by so little that it
+  /// brings less than kNegligible of the scene's mean light are not taken apart further.
+  glm::dvec3 moment(const ReceiverView& view, std::uint32_t e, std::span<const glm::dvec3> ring,
                     double factor, std::vector<glm::dvec3>& scratch) const;
+  /// What a view with this moment of element e has of it beyond its factor times the element's mean light
+  /// [W/m^2].
+  glm::dvec3 excess(std::uint32_t e, const glm::dvec3& moment) const;
 
   static constexpr double kNegligible = 0.003;
 
@@ -34,12 +38,8 @@ class ElementSlopes {
     glm::dvec3 centre{0.0};       // where the light is the element's mean
     glm::dvec3 gradient[3] = {};  // one a channel [W/m^2 per m]
     double steepest = 0;          // the longest of them
-    glm::dvec3 at(const glm::dvec3& p) const {
-      const glm::dvec3 d = p - centre;
-      return {glm::dot(gradient[0], d), glm::dot(gradient[1], d), glm::dot(gradient[2], d)};
-    }
   };
-  glm::dvec3 excess(const ReceiverView& view, const Slope& slope, std::span<const glm::dvec3> ring,
+  glm::dvec3 moment(const ReceiverView& view, const Slope& slope, std::span<const glm::dvec3> ring,
                     double factor, int halvings, std::vector<glm::dvec3>& scratch) const;
 
   std::vector<Slope> slopes_;  // one per element, or none

@@ -19,6 +19,8 @@ constexpr double kNear = 3;
 // three times as many looks and leaves the error as it is.
 constexpr double kNearJoined = 1.5;
 constexpr double kSeconds = 4e-3;  // of an advance
+// Looks that are kept for the next pass, 24 bytes each.
+constexpr std::size_t kMostKept = 2'000'000;
 
 std::vector<glm::dvec3> placesOf(const Receivers& receivers, const Range& range) {
   std::vector<glm::dvec3> out;
@@ -57,6 +59,7 @@ LocalPass::LocalPass(const Mesh& mesh, const Receivers& receivers, bool occlusio
       places_(placesOf(receivers, receivers.reachedBy(false))),
       tree_(places_) {
   makeGroups();
+  looks_.resize(mesh.patch_count);
 }
 
 void LocalPass::makeGroups() {
@@ -108,72 +111,91 @@ void LocalPass::advance(Transport& transport) {
 
 void LocalPass::gather(std::uint32_t q, const Column& column, const RowClosure& closure) {
   if (!column.receiver.empty()) return;
-  const glm::dvec3& middle = polygons_.middle(q);
   const auto scale = [&](std::uint32_t v) {
     return closure.scale.empty() || closure.exact[q] ? 1.0 : static_cast<double>(closure.scale[v]);
   };
+  Looks* looks = &looks_[q];
+  if (!looks->found && kept_ >= kMostKept) looks = &unkept_;
+  if (!looks->found || looks == &unkept_) {
+    find(q, *looks);
+    if (looks != &unkept_) kept_ += looks->looks.size();
+  }
+  std::uint32_t next = 0;
+  for (const Near& near : looks->near) {
+    glm::dvec3 light(0.0);
+    for (; next < near.end; ++next) light += lightOf(looks->looks[next]);
+    const std::uint32_t v = near.receiver;
+    sum_[v] += scale(v) * light - static_cast<double>(column.k[v - column.first]) * patch_light_[q];
+  }
+}
+
+glm::dvec3 LocalPass::lightOf(const Look& look) const {
+  const double factor = static_cast<double>(look.factor);
+  if (look.whole) return factor * group_light_[look.of];
+  const glm::dvec3 more = slopes_.excess(look.of, glm::dvec3(look.moment));
+  return glm::max(factor * element_light_[look.of] + more, glm::dvec3(0.0));
+}
+
+void LocalPass::find(std::uint32_t q, Looks& out) {
+  out.found = true;
+  out.near.clear();
+  out.looks.clear();
+  const glm::dvec3& middle = polygons_.middle(q);
   const double near_radii = mesh_.joined(q) ? kNearJoined : kNear;
   tree_.nearSegment(middle, middle, near_radii * polygons_.radius(q), [&](std::uint32_t place) {
     const std::uint32_t v = first_receiver_ + place;
     bool near = false;
-    glm::dvec3 light(0.0);
-    for (const ReceiverView& view : receivers_.viewsOf(v)) light += view.weight * gather(view, q, near);
-    if (near) sum_[v] += scale(v) * light - static_cast<double>(column.k[v - column.first]) * patch_light_[q];
+    for (const ReceiverView& view : receivers_.viewsOf(v)) near |= look(view, q, out.looks);
+    if (near) out.near.push_back({v, static_cast<std::uint32_t>(out.looks.size())});
   });
 }
 
-// What the view has of the patch's elements. `near` becomes true where there is anything of it to be seen.
-glm::dvec3 LocalPass::gather(const ReceiverView& view, std::uint32_t q, bool& near) {
-  glm::dvec3 sum(0.0);
+// Adds what the view sees of the patch's elements. Returns whether there is anything of it to be seen, but
+// for what occludes.
+bool LocalPass::look(const ReceiverView& view, std::uint32_t q, std::vector<Look>& out) {
   if (mesh_.sides[view.side].surface == polygons_.surface(q) ||
       polygons_.quickFactor(q, view.position, view.normal, scratch_) == 0)
-    return sum;
-  near = true;
+    return false;
   const glm::dvec3& normal = mesh_.sides[mesh_.patch_side[q]].normal;
   const glm::dvec3 eye = rays_ ? rays_->rays().lifted(view.position, view.normal) : view.position;
   // What rays have to decide on, so many together.
-  std::array<glm::dvec3, SceneRays::kTogether> ends, lights;
+  std::array<glm::dvec3, SceneRays::kTogether> ends;
+  std::array<Look, SceneRays::kTogether> found;
   std::size_t count = 0;
   const auto decide = [&] {
     if (count == 0) return;
-    const std::uint32_t hidden = rays_->rays().occluded(eye, {ends.data(), count});
+    const std::uint32_t hidden = rays_->occluded(eye, {ends.data(), count});
     for (std::size_t k = 0; k < count; ++k) {
-      if (!(hidden >> k & 1)) sum += lights[k];
+      if (!(hidden >> k & 1)) out.push_back(found[k]);
     }
     count = 0;
   };
-  const auto factorOf = [&](const Tile& tile) {
-    return tile.polygon.quick(view.position, view.normal, scratch_);
-  };
-  const auto add = [&](const Tile& tile, const glm::dvec3& light) {
+  const auto add = [&](const Tile& tile, const Look& look) {
     if (!rays_) {
-      sum += light;
+      out.push_back(look);
       return;
     }
     const std::optional<glm::dvec3> place = placeAbove(tile.polygon, view, rays_->rays().lift());
     if (!place) return;
     ends[count] = rays_->rays().lifted(*place, normal);
-    lights[count++] = light;
+    found[count++] = look;
     if (count == ends.size()) decide();
   };
   for (const std::uint32_t g : groups_of_patch_[q]) {
     const Group& group = groups_[g];
-    if (glm::distance(view.position, group.middle) > kNear * group.radius) {
-      for (const Tile& tile : group.whole) {
-        const double factor = factorOf(tile);
-        if (factor > 0) add(tile, factor * group_light_[g]);
-      }
-    } else {
-      for (const Tile& tile : group.parts) {
-        const double factor = factorOf(tile);
-        if (factor <= 0) continue;
-        const glm::dvec3 more = slopes_.excess(view, tile.element, tile.polygon.corners(), factor, scratch_);
-        add(tile, glm::max(factor * element_light_[tile.element] + more, glm::dvec3(0.0)));
-      }
+    const bool whole = glm::distance(view.position, group.middle) > kNear * group.radius;
+    for (const Tile& tile : whole ? group.whole : group.parts) {
+      const double factor = tile.polygon.quick(view.position, view.normal, scratch_);
+      if (factor <= 0) continue;
+      Look look{whole ? g : tile.element, whole, static_cast<float>(view.weight * factor)};
+      if (!whole)
+        look.moment =
+            view.weight * slopes_.moment(view, tile.element, tile.polygon.corners(), factor, scratch_);
+      add(tile, look);
     }
   }
   decide();
-  return sum;
+  return true;
 }
 
 }  // namespace unshot

@@ -53,8 +53,26 @@ class LocalPass {
     double radius = 0;
   };
   void makeGroups();
+  // What a receiver sees of an element, or of a whole group where that is far enough.
+  struct Look {
+    std::uint32_t of = 0;
+    bool whole = false;     // of a group
+    float factor = 0;       // with the weight of the receiver's view
+    glm::vec3 moment{0.0};  // ElementSlopes::moment, with the same weight
+  };
+  struct Near {
+    std::uint32_t receiver = 0;
+    std::uint32_t end = 0;  // of its looks; they begin where those of the one before end
+  };
+  struct Looks {
+    bool found = false;
+    std::vector<Near> near;  // receivers that are near to the patch and see it, but for what occludes
+    std::vector<Look> looks;
+  };
   void gather(std::uint32_t q, const Column& column, const RowClosure& closure);
-  glm::dvec3 gather(const ReceiverView& view, std::uint32_t q, bool& near);
+  void find(std::uint32_t q, Looks& out);
+  bool look(const ReceiverView& view, std::uint32_t q, std::vector<Look>& out);
+  glm::dvec3 lightOf(const Look& look) const;
 
   const Mesh& mesh_;
   const Receivers& receivers_;
@@ -68,6 +86,9 @@ class LocalPass {
   std::vector<glm::dvec3> element_light_, group_light_, patch_light_;  // of the pass that is running
   ElementSlopes slopes_;                                               // and of its light
   std::vector<glm::dvec3> sum_, irradiance_;
+  std::vector<Looks> looks_;  // one per patch
+  Looks unkept_;              // of the patch at hand, where there is no room
+  std::size_t kept_ = 0;      // looks
   std::vector<glm::dvec3> scratch_;
   std::uint32_t next_ = kNone;
 };

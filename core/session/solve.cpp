@@ -23,6 +23,8 @@ constexpr std::uint64_t kShotsBeforeMore = 200;
 constexpr std::uint64_t kReceiversAtOnce = 1'000'000;
 // Of them so many along columns that have to be computed.
 constexpr std::uint64_t kColumnsAtOnce = 2;
+// A check of the energy goes over all receivers, which a step may not.
+constexpr std::size_t kRecordsToACheck = 8;
 // Patches whose columns take a minute or two; with more, limits of time come before the first bounce.
 constexpr std::uint32_t kMostForGmres = 20'000;
 
@@ -222,10 +224,12 @@ void Solve::Impl::learnSolution() {
 void Solve::Impl::record() {
   const auto steps = [](const Measures& m) { return m.shots + m.rows; };
   const std::uint64_t last = steps(history.back().measures), now = steps(measures);
-  const bool ended = progress_state != SolveState::kRunning && now > last;
-  if (!ended && now < last + std::max<std::uint64_t>(1, last / 100)) return;
-  history.push_back({measures});
-  checkEnergy();
+  const bool ended = progress_state != SolveState::kRunning;
+  if ((ended && now > last) || now >= last + std::max<std::uint64_t>(1, last / 100)) {
+    history.push_back({measures});
+    if (history.size() % kRecordsToACheck == 0) checkEnergy();
+  }
+  if (ended) checkEnergy();
 }
 
 void Solve::Impl::refine() {

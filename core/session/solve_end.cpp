@@ -48,7 +48,7 @@ void Solve::Impl::finishBegun() {
   begun_solved = false;
   measure();
   measures.bounds = SolverBounds::tighter(measures.bounds, budget->sharpen());
-  if (measures.solverBound() <= target()) stop(SolveState::kConverged, "solver_upper");
+  if (measures.solverBound() <= target()) stop(SolveState::kConverged, boundReached());
   record();
 }
 
@@ -105,11 +105,16 @@ bool Solve::Impl::reached() {
   return measures.solverBound() <= target();
 }
 
+// Which of the bounds it is.
+std::string Solve::Impl::boundReached() const {
+  return measures.bounds.upper < kNoBound ? "solver_upper" : "solver_total_upper";
+}
+
 void Solve::Impl::checkLimits() {
   if (!std::isfinite(measures.unshot_fraction)) {
     fail(ErrorKind::kInternal, "a value is no longer finite", "another --mode or --form-factors");
   } else if (!options.bounces && reached()) {
-    finish(measures.bounds.upper < kNoBound ? "solver_upper" : "solver_total_upper");
+    finish(boundReached());
   } else if (options.max_shots && measures.shots >= *options.max_shots) {
     stop(SolveState::kLimit, "max_shots");
   } else if (options.max_seconds && measures.seconds >= *options.max_seconds) {

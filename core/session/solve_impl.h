@@ -101,6 +101,7 @@ struct Solve::Impl {
   void learnSolution();
   void measure();
   bool reached();
+  std::string boundReached() const;
   void checkLimits();
   void checkStagnation();
   void checkEnergy();

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <map>
 #include <optional>
@@ -18,6 +17,7 @@
 #include "export/ply.h"
 #include "scene/obj_reader.h"
 #include "session/saved_solve.h"
+#include "support/given_up.h"
 #include "support/landscape.h"
 #include "support/live_viewer.h"
 #include "support/temp_folder.h"
@@ -164,14 +164,7 @@ TEST(SavingASolve, LeavesTheFileBeforeWhereItIsGivenUp) {
   for (int k = 0; k < 20; ++k) solve.step();
   const std::string path = folder.write("s.unshot", "what was there");
   for (const double share : {0.0, 0.5, 0.99}) {
-    std::atomic<bool> given_up{false};
-    double last = -1;
-    const CancelToken::Told told = [&](double done) {
-      EXPECT_GE(done, last);
-      last = done;
-      if (done >= share) given_up = true;
-    };
-    EXPECT_THROW(solve.save(path, CancelToken(given_up, &told)), Cancelled) << share;
+    givenUpAt(share, [&](const CancelToken& cancel) { solve.save(path, cancel); });
     EXPECT_EQ(folder.read("s.unshot"), "what was there");
     EXPECT_EQ(folder.names(), std::set<std::string>{"s.unshot"});
   }

@@ -40,7 +40,8 @@ class Wall {
     if (corners == 5) ring.insert(ring.begin() + 1, {-0.5, -0.5, 0});
     const double factor = pointToPolygonFactor(view.position, view.normal, ring, scratch_);
     // The triangle has less than the wall's mean light, the slope the rest.
-    const double found = factor * 1.0 + slopes_.excess(view, element_, ring, factor, scratch_).x;
+    const double found =
+        factor * 1.0 + slopes_.excess(element_, slopes_.moment(view, element_, ring, factor, scratch_)).x;
     double sum = 0;
     constexpr int n = 600;
     for (int i = 0; i < n; ++i) {
@@ -90,8 +91,8 @@ TEST(ElementSlopes, AreNothingWhereLightIsEven) {
       {-0.5, -0.5, 0.5}, {-0.5, -0.5, -0.5}, {-0.5, 0.5, -0.5}, {-0.5, 0.5, 0.5}};
   const ReceiverView view{{-0.4, -0.5, 0}, {0, 1, 0}, 1, 0, 0};
   for (std::uint32_t e = 0; e < mesh.element_count; ++e)
-    EXPECT_LT(glm::length(slopes.excess(view, e, ring, 0.4, scratch)), 1e-9);
-  EXPECT_EQ(none.excess(view, 0, ring, 0.4, scratch), glm::dvec3(0.0));
+    EXPECT_LT(glm::length(slopes.excess(e, slopes.moment(view, e, ring, 0.4, scratch))), 1e-9);
+  EXPECT_EQ(none.excess(0, none.moment(view, 0, ring, 0.4, scratch)), glm::dvec3(0.0));
 }
 
 }  // namespace

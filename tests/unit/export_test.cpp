@@ -1,9 +1,7 @@
 #include <gmock/gmock.h>
 
-#include <atomic>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -13,6 +11,7 @@
 #include "export/image_files.h"
 #include "export/ply.h"
 #include "scene/texture_mean.h"
+#include "support/given_up.h"
 #include "support/synthetic_room.h"
 #include "support/temp_folder.h"
 
@@ -20,6 +19,7 @@ namespace unshot {
 namespace {
 
 using testing::HasSubstr;
+using testing_support::givenUpAt;
 using testing_support::TempFolder;
 
 TEST(ImageFiles, PngKeepsEveryByteAndIsDecodedFromSrgb) {
@@ -200,19 +200,9 @@ TEST(ImageFiles, WritingAndReadingTellHowFarTheyAreAndEndWhereTheyAreGivenUp) {
   const TempFolder folder;
   const Image8 image{600, 400, std::vector<std::uint8_t>(600 * 400 * 3, 77)};
   const std::string path = folder.write("a.png", "what was there");
-  const auto givenUpAt = [](double share, const std::function<void(const CancelToken&)>& work) {
-    std::atomic<bool> given_up{false};
-    double last = -1;
-    const CancelToken::Told told = [&](double done) {
-      EXPECT_GE(done, last);
-      last = done;
-      if (done >= share) given_up = true;
-    };
-    EXPECT_THROW(work(CancelToken(given_up, &told)), Cancelled) << share;
-    EXPECT_LT(last, share + 0.1);
-  };
   for (const double share : {0.0, 0.5, 0.9}) {
-    givenUpAt(share, [&](const CancelToken& cancel) { writePng(path, image, cancel); });
+    EXPECT_LT(givenUpAt(share, [&](const CancelToken& cancel) { writePng(path, image, cancel); }),
+              share + 0.1);
     EXPECT_EQ(folder.read("a.png"), "what was there");
   }
   writePng(path, image);
@@ -221,7 +211,8 @@ TEST(ImageFiles, WritingAndReadingTellHowFarTheyAreAndEndWhereTheyAreGivenUp) {
   writeHdr(folder / "a.hdr", light);
   for (const double share : {0.0, 0.5}) {
     for (const char* file : {"a.png", "a.hdr"})
-      givenUpAt(share, [&](const CancelToken& cancel) { readPicture(folder / file, cancel); });
+      EXPECT_LT(givenUpAt(share, [&](const CancelToken& cancel) { readPicture(folder / file, cancel); }),
+                share + 0.1);
   }
 }
 

@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 
 #include "mesh/build.h"
 #include "mesh/mesh_rays.h"
 #include "scene/scene_triangles.h"
 #include "support/dice.h"
+#include "support/random_scene.h"
 #include "support/test_scenes.h"
 
 namespace unshot {
@@ -135,6 +137,46 @@ TEST(SceneRays, TogetherFindWhatEachFindsAlone) {
   }
   EXPECT_GT(met, all / 10);
   EXPECT_LT(met, all * 9 / 10);
+}
+
+// Walls that have the whole scene on one side are not among what is asked for, and make no difference:
+// between points of lit sides that face each other.
+TEST(MeshRays, FindsTheSameOccludedWithoutWhatCanNotOcclude) {
+  std::size_t met = 0, segments = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    MeshOptions options;
+    options.elements = 50;
+    const Mesh mesh = buildMesh(RandomScene(seed).scene(), options);
+    if (mesh.sides.empty()) continue;
+    const MeshRays rays(mesh);
+    Dice dice(seed);
+    const auto placeOn = [&](const Side& side) {
+      const Range& triangles = mesh.surfaces[side.surface].triangles;
+      const SceneRays::Triangle& triangle =
+          rays.rays().triangle(triangles.first + dice.below(triangles.count));
+      return rays.rays().lifted(triangle.point(dice.uniform(), dice.uniform()), side.normal);
+    };
+    const auto anySide = [&] {
+      return mesh.sides[dice.below(static_cast<std::uint32_t>(mesh.sides.size()))];
+    };
+    for (int k = 0; k < 200; ++k) {
+      const Side from = anySide();
+      const glm::dvec3 a = placeOn(from);
+      std::vector<glm::dvec3> ends;
+      for (int tries = 0; tries < 40 && ends.size() < SceneRays::kTogether; ++tries) {
+        const Side to = anySide();
+        const glm::dvec3 b = placeOn(to);
+        if (glm::dot(b - a, from.normal) > 0 && glm::dot(a - b, to.normal) > 0) ends.push_back(b);
+      }
+      if (ends.empty()) continue;
+      const std::uint32_t all = rays.rays().occluded(a, ends);
+      EXPECT_EQ(rays.occluded(a, ends), all) << "scene " << seed;
+      segments += ends.size();
+      met += static_cast<std::size_t>(std::popcount(all));
+    }
+  }
+  EXPECT_GT(met, segments / 10);
+  EXPECT_LT(met, segments);
 }
 
 }  // namespace
