@@ -93,6 +93,7 @@ Row Pointwise::row(std::uint32_t v) {
 }
 
 double Pointwise::escapeOf(std::uint32_t q) {
+  if (mesh_.closed) return 0;
   return visibility_ ? visibility_->escaping(q) : escapeAlongRows(q);
 }
 

@@ -88,8 +88,10 @@ std::vector<char> sidesToKeep(const MeshOptions& options, const std::vector<Surf
     const bool light = mesh.materials[mesh.surfaces[k / 2].material].emits();
     emits[k] = sees[k] && light && !(k % 2 != 0 && options.emit_front_only);
   }
-  const std::vector<char> reached = findReach(mesh, edges, crossings, emits, mesh.weld_distance, cancel);
-  for (std::size_t k = 0; k < count; ++k) keep[k] = keep[k] && (reached[k] || !sees[k]);
+  const Reached reached = findReach(mesh, edges, crossings, emits, mesh.weld_distance, cancel);
+  // What sides beyond emit leaves the scene.
+  mesh.closed = reached.closed && !options.escape_unknown && !options.outer_sides;
+  for (std::size_t k = 0; k < count; ++k) keep[k] = keep[k] && (reached.sides[k] || !sees[k]);
   return keep;
 }
 
@@ -331,6 +333,7 @@ SurfacesOfScene findSurfaces(const Scene& scene, const MeshOptions& options, con
   mesh.weld_distance = weldDistance(scene);
   out.crossings = findCrossings(mesh, 2 * mesh.weld_distance, cancel.part(0.35, 0.45));
   const double plan_began = wallSeconds();
+  mesh.all_tested = options.all_tested;
   makeSides(options, sidesToKeep(options, out.edges, out.crossings, mesh, cancel.part(0.45, 0.95)), mesh);
   out.plan_seconds = wallSeconds() - plan_began;
   putLitTrianglesFirst(mesh);

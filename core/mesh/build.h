@@ -26,6 +26,9 @@ struct MeshOptions {
   bool outer_sides = false;
   /// And so have sides that closed surfaces keep from all light (mesh/reach.h).
   bool dark_sides = false;
+  /// Whether light leaves the scene is not looked for in its surfaces (Mesh::closed stays false).
+  bool escape_unknown = false;
+  bool all_tested = false;  ///< Mesh::all_tested
   /// Polygons of one material in one plane are one surface where they join.
   bool join_polygons = true;
   /// Light comes from outside the scene too: no side is left out.

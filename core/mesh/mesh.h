@@ -199,6 +199,9 @@ struct Mesh {
   /// Null where there is none.
   std::shared_ptr<const Mesh> base;
   bool for_error = false;  ///< as fine as the error asked for needs, which is that of the whole then
+  bool closed = false;     ///< no light leaves the scene: surfaces lie around every light (mesh/reach.h)
+  /// Rays that ask what stands between two points ask it of surfaces too that can not (Surface::between).
+  bool all_tested = false;
   std::vector<std::uint32_t>
       element_from_base;        ///< the base's element that each is a part of; none without base
   SparseRows vertex_from_base;  ///< interpolation from base->vertices: a row per vertex; none without base

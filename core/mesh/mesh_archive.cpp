@@ -21,7 +21,7 @@ void transferMesh(Archive& a, AnyMesh& m) {
   a.fields(m.element_from_base);
   transferRows(m.vertex_from_base);
   a.fields(m.smooth_pairs);
-  a.fields(m.weld_distance, m.element_size, m.patch_size, m.lit_area, m.for_error);
+  a.fields(m.weld_distance, m.element_size, m.patch_size, m.lit_area, m.for_error, m.closed, m.all_tested);
   a.list(m.diagnostics, [&](auto& d) { a.fields(d.severity, d.code, d.message, d.where, d.advice); });
 }
 

@@ -17,6 +17,7 @@ SceneRays raysOf(const Mesh& mesh) {
 
 // Of the surfaces that can stand between two points; nothing where these are all.
 std::optional<SceneRays> raysBetween(const Mesh& mesh) {
+  if (mesh.all_tested) return std::nullopt;
   const std::span<const ChartTriangle> triangles = litTriangles(mesh);
   std::vector<std::uint32_t> corners;
   for (const Surface& s : mesh.surfaces) {

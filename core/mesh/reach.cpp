@@ -108,6 +108,8 @@ class Reach {
     }
   }
 
+  /// No place of light is the one outside of all shells.
+  bool closed() const { return light_.count(Shells::kOutside) == 0; }
   std::vector<char> take() { return std::move(lit_); }
 
  private:
@@ -146,10 +148,10 @@ class Reach {
 
 }  // namespace
 
-std::vector<char> findReach(const Mesh& mesh, const std::vector<SurfaceEdge>& edges,
-                            std::span<const Crossing> crossings, std::span<const char> emits,
-                            double weld_distance, const CancelToken& cancel) {
-  std::vector<char> everywhere(2 * mesh.surfaces.size(), 1);
+Reached findReach(const Mesh& mesh, const std::vector<SurfaceEdge>& edges,
+                  std::span<const Crossing> crossings, std::span<const char> emits, double weld_distance,
+                  const CancelToken& cancel) {
+  const Reached everywhere{std::vector<char>(2 * mesh.surfaces.size(), 1), false};
   if (std::find(emits.begin(), emits.end(), 1) == emits.end()) return everywhere;
   const std::vector<Touch> touches = findTouches(mesh, edges, 2 * kOff * weld_distance, cancel.part(0, 0.9));
   Shells shells(mesh, edges, crossings, touches, weld_distance, cancel);
@@ -157,7 +159,7 @@ std::vector<char> findReach(const Mesh& mesh, const std::vector<SurfaceEdge>& ed
   Reach reach(mesh, edges, touches, shells, weld_distance);
   if (!reach.findLight(emits, cancel.part(0.9, 1))) return everywhere;
   reach.lightMixed();
-  return reach.take();
+  return {reach.take(), reach.closed()};
 }
 
 }  // namespace unshot

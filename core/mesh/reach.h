@@ -14,11 +14,16 @@
 
 namespace unshot {
 
-/// Two flags for each of mesh.surfaces, front and back: whether light can reach that side. `edges`: all edges
-/// of the scene's polygons, equal ones side by side; `emits`: two for each surface. All true where nothing
-/// emits, or where it cannot be told.
-std::vector<char> findReach(const Mesh& mesh, const std::vector<SurfaceEdge>& edges,
-                            std::span<const Crossing> crossings, std::span<const char> emits,
-                            double weld_distance, const CancelToken& cancel = {});
+struct Reached {
+  std::vector<char>
+      sides;            ///< two flags for each of Mesh::surfaces, front and back: whether light can reach it
+  bool closed = false;  ///< none of the light can leave the scene
+};
+
+/// `edges`: all edges of the scene's polygons, equal ones side by side; `emits`: two flags for each surface.
+/// All sides, and not closed, where nothing emits, or where it cannot be told.
+Reached findReach(const Mesh& mesh, const std::vector<SurfaceEdge>& edges,
+                  std::span<const Crossing> crossings, std::span<const char> emits, double weld_distance,
+                  const CancelToken& cancel = {});
 
 }  // namespace unshot

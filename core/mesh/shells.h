@@ -33,6 +33,7 @@ class Shells {
   /// A set of shells, as the sum mod 2 of random numbers of theirs: two of some thousand sets are alike by
   /// chance once in 1e12 scenes.
   using Place = std::uint64_t;
+  static constexpr Place kOutside = 0;  ///< inside of none
 
   /// Keeps references to mesh, edges and `cancel`. `edges`: all edges of the scene's polygons, equal ones
   /// side by side; `touches`: among them those that lie on surfaces.

@@ -41,8 +41,11 @@ std::shared_ptr<const Mesh> withMaterials(const Mesh& mesh, const std::vector<Ma
   out->materials = materials;
   for (Side& side : out->sides) {
     const Material& material = materials[out->surfaces[side.surface].material];
+    const bool emitted = side.emission != glm::dvec3(0.0);
     side.reflectance = material.reflectance;
     if (!side.back || !emit_front_only) side.emission = material.emission;
+    // It may reach beyond the surfaces that lay around every light.
+    if (!emitted && side.emission != glm::dvec3(0.0)) out->closed = false;
   }
   if (mesh.base) out->base = withMaterials(*mesh.base, materials, emit_front_only);
   return out;

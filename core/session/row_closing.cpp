@@ -30,8 +30,9 @@ void Solve::Impl::planClosure(const CancelToken& cancel) {
                     !options.bounces && gain >= kClosedGain;
   // The sky is a source of its own, which holds what would escape.
   if (!closure_pending || !high_gain || exact || sky != glm::dvec3(0.0)) return;
-  const SkySource openings = lookAtSky(*mesh, receivers, options.seed, cancel);
   escape.assign(receivers.size(), 0.0f);
+  if (mesh->closed) return;
+  const SkySource openings = lookAtSky(*mesh, receivers, options.seed, cancel);
   openings.column.forEach([&](std::uint32_t v, double k) { escape[v] = static_cast<float>(k); });
 }
 

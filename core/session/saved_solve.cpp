@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kKind = "unshot solve";
 // To be raised when the file changes, or what form-factor methods and mesh mean by the same options.
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 
 // What the file holds, for writing (constant values) and for reading.
 

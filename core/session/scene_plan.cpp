@@ -26,6 +26,12 @@ constexpr PlanRow kRows[] = {
     {{plan_keys::kOcclusion, "Tests of what occludes",
       "hemicubes and rays where nothing can stand between two points"},
      "exact: form factors are those of formulas"},
+    {{plan_keys::kOccluders, "Walls that hide nothing",
+      "shadow rays against surfaces that can stand between no two points"},
+     "exact: they have all that light reaches on one side of their plane"},
+    {{plan_keys::kEscape, "Looks for light that escapes", "rays and form factors that would find no way out"},
+     "closed surfaces lie around every light: exact with exact form factors, and rows that rays would have "
+     "left open for sides beyond are closed"},
     {{plan_keys::kHemicubes, "Hemicubes where rays are sooner", "OpenGL for the solution"},
      "within the error asked for; rays are nearer to the truth"},
     {{plan_keys::kEvenLight, "Fine elements where light is even",
@@ -128,6 +134,25 @@ std::vector<PlanDecision> makePlan(const PlannedSolve& solve) {
                            "every surface has the whole scene on one side of its plane, so nothing can stand "
                            "between two points",
                            "all pictures; the form factors are exact"));
+  }
+  const bool by_rays = solve.form_factors == "rays";
+  const auto between = static_cast<std::size_t>(
+      std::count_if(mesh.surfaces.begin(), mesh.surfaces.end(), [](const Surface& s) { return s.between; }));
+  const auto lit = static_cast<std::size_t>(std::count_if(mesh.surfaces.begin(), mesh.surfaces.end(), isLit));
+  if (by_rays && between < lit && !mesh.all_tested) {
+    out.push_back(decision(
+        plan_keys::kOccluders, "shadow rays against " + countedText(lit - between, "surface"),
+        "these have all that light reaches on one side of their plane, so they can stand "
+        "between no two points",
+        "tests against " + std::to_string(lit - between) + " of " + std::to_string(lit) + " surfaces"));
+  }
+  if (mesh.closed && (by_rays || solve.form_factors == "closed-form")) {
+    out.push_back(decision(plan_keys::kEscape, "looks for light that escapes",
+                           "closed surfaces lie around every light, so none of it leaves the scene",
+                           by_rays
+                               ? "144 rays from each of " + countedText(mesh.patch_count, "patch", "patches")
+                               : "a row of form factors for each receiver",
+                           by_rays ? solve.error : 0));
   }
   return out;
 }

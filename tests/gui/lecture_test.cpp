@@ -291,7 +291,7 @@ TEST(Lecture, StepIsDisabledWhereNothingIsToBeShot) {
 }
 
 TEST(Lecture, GatheringSaysHowFarItIsAndCanBeGivenUp) {
-  LiveViewer::Options options = boxToTeachWith("pause on\nstep 3000\nwait shots 3000\n");
+  LiveViewer::Options options = boxToTeachWith("pause on\nstep 1000\nwait shots 1000\n");
   options.solve.elements = 30000;
   options.solve.form_factors = "rays";
   options.solve.error = 1e-6;

@@ -101,7 +101,7 @@ TEST_F(Window, AnActionIsTypedIntoTheList) {
   for (int attempt = 0; attempt < 3 && !written; ++attempt) {
     run.key("Escape");
     run.key("ctrl+p");
-    xdotool("sleep 0.5 type --delay 30 'screenshot typed.png'");
+    xdotool("sleep 1 type --delay 30 'screenshot typed.png'");
     run.key("Return");
     written = eventually([&] { return run.folder().has("typed.png"); }, 10);
   }

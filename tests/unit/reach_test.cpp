@@ -199,5 +199,66 @@ TEST(Reach, HoldsForLightThatIsFollowed) {
   EXPECT_GT(left_out, sides / 10);
 }
 
+bool closed(Rooms rooms, MeshOptions options = evenly(100)) {
+  return buildMesh(rooms.scene(), options).closed;
+}
+
+TEST(Reach, TellsWhetherLightCanLeave) {
+  EXPECT_TRUE(closed(litRoom()));
+  // Furniture, and what is closed itself, changes nothing.
+  EXPECT_TRUE(closed(litRoom().box({1, 0, 1}, {1, 0.5, 1}, false, kBottom)));
+  EXPECT_TRUE(closed(litRoom().box({1, 1, 1}, {1, 0.5, 1})));
+  // What stands through a wall joins the sides of the wall: it cannot be told, which is on the safe side.
+  EXPECT_FALSE(closed(litRoom().box({3.5, 1, 1}, {1, 0.5, 1})));
+  // Without a wall, or with a crack of 1e-4, it leaves, and so it does from a lamp outside.
+  EXPECT_FALSE(closed(Rooms().box({0, 0, 0}, {4, 3, 4}, true, kHighX).lamp({2, 2.9, 2})));
+  EXPECT_FALSE(closed(Rooms()
+                          .box({0, 0, 0}, {4, 3, 4}, true, kHighX)
+                          .quad({4, 1e-4, 0}, {0, 3, 0}, {0, 0, 4})
+                          .lamp({2, 2.9, 2})));
+  EXPECT_FALSE(closed(litRoom().lamp({2, 4, 2})));
+  // Two rooms, one of which is open; the light is in the other.
+  EXPECT_TRUE(closed(litRoom().box({10, 0, 0}, {4, 3, 4}, true, kHighX)));
+}
+
+TEST(Reach, DoesNotTellOfLightThatLeavesWhereItIsNotAsked) {
+  for (bool MeshOptions::*option : {&MeshOptions::escape_unknown, &MeshOptions::sky,
+                                    &MeshOptions::outer_sides, &MeshOptions::dark_sides}) {
+    MeshOptions options = evenly(100);
+    options.*option = true;
+    EXPECT_FALSE(closed(litRoom(), options));
+  }
+}
+
+// Rays from lit sides find no way out of what is said to be closed.
+TEST(Reach, NoRayLeavesWhatIsClosed) {
+  int closed_scenes = 0;
+  for (std::uint64_t seed = 1; seed <= 250; ++seed) {
+    const Mesh mesh = buildMesh(RandomScene(seed).scene(), evenly(50));
+    if (!mesh.closed) continue;
+    ++closed_scenes;
+    const MeshRays rays(mesh);
+    Dice dice(seed);
+    for (const Side& side : mesh.sides) {
+      if (side.emission == glm::dvec3(0.0)) continue;
+      const Range& triangles = mesh.surfaces[side.surface].triangles;
+      for (int k = 0; k < 100; ++k) {
+        const SceneRays::Triangle& triangle =
+            rays.rays().triangle(triangles.first + dice.below(triangles.count));
+        // Some steps of a walk.
+        glm::dvec3 at = triangle.point(dice.uniform(), dice.uniform()), normal = side.normal;
+        for (int step = 0; step < 8; ++step) {
+          const auto hit = rays.intersect(rays.rays().lifted(at, normal),
+                                          cosineDirection(normal, dice.uniform(), dice.uniform()));
+          ASSERT_TRUE(hit) << "scene " << seed;
+          at = hit->at.position;
+          normal = hit->at.normal;
+        }
+      }
+    }
+  }
+  EXPECT_GE(closed_scenes, 10);
+}
+
 }  // namespace
 }  // namespace unshot
