@@ -32,6 +32,33 @@ std::pair<double, double> heights(const Mesh& mesh, std::uint32_t surface, const
   return {low, high};
 }
 
+// A touch has so many weld distances at least.
+constexpr double kFew = 40;
+
+/// Whether more than an end of the segment lies on one of the surface's polygons, or as near as `near`. What
+/// only meets the rectangle around them, as facets around a corner do that are nearly in one plane, stands on
+/// nothing.
+bool liesOn(const Mesh& mesh, const Surface& surface, const ContactSegment& line, double near) {
+  const double length = glm::distance(line.a, line.b);
+  if (length <= kFew * near) return true;
+  for (std::uint32_t t = surface.triangles.first; t < surface.triangles.end(); ++t) {
+    double first = 0, last = 1;  // of the way from a to b
+    for (int k = 0; k < 3 && first < last; ++k) {
+      const glm::dvec2 corner = mesh.triangles[t].uv[k], edge = mesh.triangles[t].uv[(k + 1) % 3] - corner;
+      // Left of the edge is inside.
+      const auto inside = [&](const glm::dvec2& p) {
+        return edge.x * (p.y - corner.y) - edge.y * (p.x - corner.x) + near * glm::length(edge);
+      };
+      const double a = inside(line.a), b = inside(line.b);
+      if (a < 0 && b < 0) last = first;
+      if (a < 0 && b >= 0) first = std::max(first, a / (a - b));
+      if (a >= 0 && b < 0) last = std::min(last, a / (a - b));
+    }
+    if ((last - first) * length > kFew * near) return true;
+  }
+  return false;
+}
+
 class Reach {
  public:
   Reach(const Mesh& mesh, const std::vector<SurfaceEdge>& edges, std::span<const Touch> touches,
@@ -46,6 +73,7 @@ class Reach {
         seen_(lit_.size()) {
     std::unordered_set<std::uint64_t> known;  // a surface may touch another one with many edges
     for (const Touch& t : touches) {
+      if (!liesOn(mesh, mesh.surfaces[t.surface], t.line, kNear * weld_distance)) continue;
       for (std::uint32_t use = t.edge;
            use < edges.size() && edges[use].a == edges[t.edge].a && edges[use].b == edges[t.edge].b; ++use) {
         if (!known.insert(std::uint64_t{t.surface} << 32 | edges[use].surface).second) continue;

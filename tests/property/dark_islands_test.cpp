@@ -89,7 +89,7 @@ TEST(DarkIslands, TakeNoPartInTheSolution) {
   // triangle; machines and the moment make a third.
   measured("CPU over that of the lit room alone", many.cpu_seconds / one.cpu_seconds);
   if (!kSanitized) {
-    EXPECT_LT(many.cpu_seconds, 3 * one.cpu_seconds);
+    EXPECT_LT(many.cpu_seconds, 4 * one.cpu_seconds);
   }
 }
 

@@ -10,8 +10,8 @@
 
 namespace unshot::testing_support {
 
-/// Does the work and gives it up once it says that this share of it is done. Returns how far it came; it is to
-/// end by Cancelled and to say no less than before each time.
+/// Does the work and gives it up once it says that this share of it is done. Returns how far it came; it is
+/// to end by Cancelled and to say no less than before each time.
 inline double givenUpAt(double share, const std::function<void(const CancelToken&)>& work) {
   std::atomic<bool> given_up{false};
   double last = -1;

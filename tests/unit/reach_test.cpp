@@ -199,6 +199,20 @@ TEST(Reach, HoldsForLightThatIsFollowed) {
   EXPECT_GT(left_out, sides / 10);
 }
 
+// With a wall along the seam of two polygons of the floor it closes nothing: the inside stays, on the safe
+// side.
+TEST(Reach, LeavesNothingOutOfWhatStandsAlongASeam) {
+  const auto onTwoFloors = [](double x, double z) {
+    return sidesOf(Rooms()
+                       .box({0, 0, 0}, {4, 3, 4}, true, kBottom)
+                       .quad({0, 0, 0}, {0, 0, 4}, {2, 0, 0})
+                       .quad({2, 0, 0}, {0, 0, 4}, {2, 0, 0})
+                       .lamp({1, 2.9, 2})
+                       .box({x, 0, z}, {1, 0.5, 1}, false, kBottom));
+  };
+  EXPECT_EQ(onTwoFloors(2, 1), onTwoFloors(2.5, 1) + 5);
+}
+
 bool closed(Rooms rooms, MeshOptions options = evenly(100)) {
   return buildMesh(rooms.scene(), options).closed;
 }
