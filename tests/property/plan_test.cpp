@@ -1,12 +1,16 @@
 // What the plan leaves out changes nothing: each decision on and off, on the scenes where it is taken.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <set>
 
+#include "scene/obj_reader.h"
 #include "session/scene_plan.h"
+#include "support/assets.h"
 #include "support/plan_pairs.h"
 #include "support/random_scene.h"
 #include "support/sanitized.h"
@@ -182,6 +186,29 @@ TEST(Plan, IsSwitchedOffAsAWhole) {
   EXPECT_EQ(solve->formFactorsKey(), "hemicube");
   EXPECT_EQ(solve->mesh().sides.size(), 2 * solve->mesh().surfaces.size());
 }
+
+class PlanCost : public testing::TestWithParam<const char*> {};
+
+// A twentieth of the solve at most, or no longer than a person sees. The least of three, as other programs
+// make either longer.
+TEST_P(PlanCost, IsLittle) {
+  double share = 1, seconds = 1;
+  for (int k = 0; k < 3; ++k) {
+    SolveOptions options = soonest(0.02);
+    options.emit_front_only = true;
+    const auto solve = solved(readObj(asset(GetParam())), options);
+    share = std::min(share, solve->seconds().plan / solve->seconds().cpu_solve);
+    seconds = std::min(seconds, solve->seconds().plan);
+  }
+  measured("plan over the solve", share);
+  measured("plan [ms]", 1e3 * seconds);
+  EXPECT_TRUE(share < 0.05 || seconds < 2e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, PlanCost,
+                         testing::Values("furnace.obj", "two_patches.obj", "cornell_box.obj",
+                                         "two_rooms.obj"),
+                         [](const auto& row) { return std::string(row.param, std::strlen(row.param) - 4); });
 
 }  // namespace
 }  // namespace unshot
