@@ -42,7 +42,7 @@ void Viewer::navigate(double seconds) {
     }
   }
   glm::dvec3 direction(0.0);
-  if (!io.WantTextInput && !io.KeyCtrl) {
+  if (!io.WantTextInput && !io.KeyCtrl && !io.KeyAlt && !io.KeySuper) {
     const auto axis = [&](int plus, int minus) {
       return (io.KeysDown[plus] ? 1.0 : 0.0) - (io.KeysDown[minus] ? 1.0 : 0.0);
     };

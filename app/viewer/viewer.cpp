@@ -198,6 +198,12 @@ void Viewer::key(int key, bool ctrl) {
   if (const Action* action = actionOfKey(key, ctrl)) perform(action->key, action->argumentOfKey(key));
 }
 
+char Viewer::printedOn(char key) const {
+  const char* const name = setup_.key_name ? setup_.key_name(key) : nullptr;
+  const bool letter = name && name[0] >= 'a' && name[0] <= 'z' && name[1] == '\0';
+  return letter ? static_cast<char>(name[0] - 'a' + 'A') : key;
+}
+
 /// Shown, said on the terminal, and remembered for the exit code where nobody may be looking.
 void Viewer::fail(const Error& error, bool of_solve) {
   showError(error, of_solve);

@@ -58,6 +58,8 @@ struct ViewerSetup {
   std::string script_name;
   /// Asks the window for another size [px]; may be empty.
   std::function<void(int, int)> resize;
+  /// What is printed on a key, as GLFW numbers and names it; null where that is not known. May be empty.
+  std::function<const char*(int key)> key_name;
   /// Gives the window another title; may be empty.
   std::function<void(const std::string&)> title;
   /// Whether the program is to end, such as by Ctrl-C: the window closes. May be empty.
@@ -128,7 +130,7 @@ class Viewer {
   void damaged();
   /// Something was typed or moved: the next frames react.
   void input() { gui_frames_ = kFramesAfterInput; }
-  /// A key went down that no text field wants.
+  /// A key of keyOfActions() went down that no text field wants.
   void key(int key, bool ctrl);
   /// Of the screen, for a GUI of the usual size: 1 is a font of 15 px.
   void setScreenScale(double scale);
@@ -162,6 +164,8 @@ class Viewer {
   const Camera& shownCamera() const { return scene_.shownCamera(); }
   const std::shared_ptr<const Snapshot>& shownSnapshot() const { return scene_.snapshot(); }
   bool drawingScene() const { return scene_.drawing(); }
+  /// The letter on a key that goes by its place: `key` itself where none is known.
+  char printedOn(char key) const;
   double scale() const { return scale_; }
   /// Size of the GUI; a screen of another scale changes it with itself.
   void setScale(double scale);

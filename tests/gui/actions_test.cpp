@@ -56,6 +56,35 @@ TEST(Actions, KeysAndShortcutsAreUnique) {
   EXPECT_EQ(actionOfKey('Z', false), nullptr);
 }
 
+// Each key is US's at its place, with what another keyboard has there.
+TEST(Actions, KeysGoByWhatIsPrintedOnThem) {
+  struct Key {
+    int key;
+    const char* printed;
+    bool ctrl;
+    int wanted;
+  };
+  constexpr int kPlus = '=', kBracket = ']', kTab = 258, kKeypadPlus = 334;
+  for (const Key& k : {Key{'Y', "z", true, 'Z'},        // German
+                       Key{'Z', "y", true, 'Y'},        //
+                       Key{kBracket, "+", false, kPlus},  //
+                       Key{'/', "-", false, '-'},       //
+                       Key{';', "m", false, 'M'},       // French
+                       Key{'M', ",", false, 0},         //
+                       Key{'Q', "a", true, 'A'},        //
+                       Key{'A', "q", true, 'Q'},        //
+                       Key{'6', "-", false, '-'},       //
+                       Key{'6', "-", true, '6'},        //
+                       Key{'1', "&", true, '1'},        //
+                       Key{'Q', "'", true, 0},          // Dvorak
+                       Key{'S', "o", false, 'S'},       // a key of flying
+                       Key{'S', "o", true, 'O'},        //
+                       Key{'M', "\u044c", false, 'M'},  // Russian
+                       Key{kTab, nullptr, false, kTab},
+                       Key{kKeypadPlus, "+", false, kPlus}})
+    EXPECT_EQ(keyOfActions(k.key, k.printed, k.ctrl), k.wanted) << k.key << " " << k.ctrl;
+}
+
 TEST(DroppedFiles, TheFirstSceneCounts) {
   const auto chosen = [](std::initializer_list<const char*> files) {
     return chosenFile({files.begin(), files.size()}).string();

@@ -110,6 +110,31 @@ TEST_F(Window, AnActionIsTypedIntoTheList) {
   endsOn(run, "ctrl+q");
 }
 
+// Y and Z have changed places there, and + and - are elsewhere.
+TEST_F(Window, KeysAreThoseThatAreSeenOnTheKeyboard) {
+  ASSERT_EQ(std::system("setxkbmap de"), 0);
+  WindowRun run(kLongSolve);
+  const std::string paused = pausedScene(run);
+  run.key("plus");
+  EXPECT_TRUE(run.sceneChanges(paused)) << "no brighter";
+  run.key("minus");
+  EXPECT_TRUE(eventually([&] { return run.scene() == paused || HasFailure(); })) << "no darker";
+  // What the desktop takes for itself.
+  for (const char* chord : {"super+b", "alt+b", "super+plus"}) run.key(chord);
+  EXPECT_EQ(run.scene(), paused);
+  run.key("ctrl+p");
+  xdotool("sleep 0.5 type --delay 30 'reflectance red 0.9,0.9,0.9'");
+  run.key("Return");
+  EXPECT_TRUE(run.sceneChanges(paused)) << "no edit";
+  const std::string edited = run.sceneAtRest();
+  run.key("ctrl+z");
+  EXPECT_TRUE(run.sceneChanges(edited)) << "not undone";
+  const std::string undone = run.sceneAtRest();
+  run.key("ctrl+y");
+  EXPECT_TRUE(run.sceneChanges(undone)) << "not done again";
+  endsOn(run, "ctrl+q");
+}
+
 TEST_F(Window, MouseAndFlight) {
   WindowRun run(kLongSolve);
   pausedScene(run);

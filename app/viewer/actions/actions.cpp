@@ -85,6 +85,19 @@ std::filesystem::path chosenFile(std::span<const char* const> files) {
   return found == files.end() ? files.front() : *found;
 }
 
+int keyOfActions(int key, const char* printed, bool ctrl) {
+  constexpr std::string_view kFlight = "WASDQE";
+  const bool flies = key > 0 && key < 128 && kFlight.find(static_cast<char>(key)) != std::string_view::npos;
+  if (ctrl ? key >= GLFW_KEY_0 && key <= GLFW_KEY_9 : flies) return key;
+  // Keys without a sign, and those of other alphabets, which have the Latin letters of their places too.
+  const std::string_view sign = printed ? printed : "";
+  if (sign.size() != 1) return key;
+  const char c = sign.front();
+  if (c >= 'a' && c <= 'z') return c - 'a' + GLFW_KEY_A;
+  if (c == '+' || c == '=') return GLFW_KEY_EQUAL;
+  return (c >= '0' && c <= '9') || c == '-' ? c : 0;
+}
+
 const Action* actionOfKey(int key, bool ctrl) {
   if (key == GLFW_KEY_KP_ADD) key = GLFW_KEY_EQUAL;
   if (key == GLFW_KEY_KP_SUBTRACT) key = GLFW_KEY_MINUS;

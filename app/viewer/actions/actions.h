@@ -65,6 +65,11 @@ std::string_view actionOfFile(const std::filesystem::path& file);
 /// first.
 std::filesystem::path chosenFile(std::span<const char* const> files);
 
+/// The key that actions go by, for one that is pressed: what is printed on it (GLFW's name of it, which may
+/// be null) wherever a keyboard has that. Keys of flying stay where they are, and with Ctrl so do those of
+/// digits, on which some keyboards have other signs. 0: none.
+int keyOfActions(int key, const char* printed, bool ctrl);
+
 /// The action that a key stands for, or null.
 const Action* actionOfKey(int key, bool ctrl);
 

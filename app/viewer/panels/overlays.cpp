@@ -185,7 +185,7 @@ void buildOverlays(Viewer& viewer, const LowerEdge& edge, bool covered, bool not
     if (fits) errorWindow(viewer, text, middle);
     if (fits) top = below;
   } else if (viewer.ui().help) {
-    buildHelp(middle);
+    buildHelp(viewer, middle);
   }
   buildPrompt(viewer, middle, top);
   if (viewer.sceneChanged() && !viewer.error() && !prompt && state.phase != SessionPhase::kLoading)
