@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 
+#include "base/clock.h"
 #include "session/pick.h"
 #include "viewer/viewer.h"
 
@@ -91,9 +92,12 @@ void Viewer::followFrame(const SessionState& before) {
   navigator_.reset(moved(navigator_.camera()), boundsOf(mesh));
 }
 
-void Viewer::frameScene() {
+void Viewer::frameScene() { wantFrame(false); }
+
+void Viewer::wantFrame(bool from_memory) {
   frame_wanted_ = true;
-  camera_from_memory_ = false;
+  camera_from_memory_ = from_memory;
+  view_wanted_at_ = wallSeconds();
 }
 
 void Viewer::followShape(int width, int height, double now) {

@@ -34,7 +34,6 @@ class SceneArea {
 
   void startFraming(double aspect) { first_.startFraming(aspect); }
   bool framing() const { return first_.framing(); }
-  double framingBegan() const { return first_.framingBegan(); }
   double framingDone() const { return first_.framingDone(); }
   void hurryFraming() { first_.hurryFraming(); }
   std::optional<Camera> continueFraming(std::optional<double> seconds) {

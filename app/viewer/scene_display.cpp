@@ -52,7 +52,6 @@ void SceneDisplay::setSnapshot(std::shared_ptr<const Snapshot> snapshot) {
 
 void SceneDisplay::startFraming(double aspect) {
   framing_.reset();
-  framing_began_ = wallSeconds();
   framing_hurries_ = false;
   AutomaticCameraOptions options;
   options.aspect = aspect;

@@ -44,8 +44,7 @@ class SceneDisplay {
   /// Starts looking for a good camera for the present snapshot.
   void startFraming(double aspect);
   bool framing() const { return framing_.has_value(); }
-  /// Since when [wallSeconds()], and how much of it is done, from 0 to 1.
-  double framingBegan() const { return framing_began_; }
+  /// How much of it is done, from 0 to 1.
   double framingDone() const { return framing_ ? framing_->done() : 1; }
   /// The next continueFraming() returns the best of what was found so far.
   void hurryFraming() { framing_hurries_ = true; }
@@ -159,7 +158,6 @@ class SceneDisplay {
   SceneView view_;
   std::shared_ptr<const Snapshot> snapshot_;
   std::optional<CameraSearch> framing_;
-  double framing_began_ = 0;
   bool framing_hurries_ = false;
   Picture shown_, next_;
   std::optional<Making> making_;

@@ -20,11 +20,11 @@ Task taskOf(FileLoad<Result>& load) {
 std::vector<Task> Viewer::tasks() {
   std::vector<Task> out;
   if (state_->phase == SessionPhase::kLoading)
-    out.push_back(
-        {state_->task, state_->task_done, "the scene before stays", [this] { giveUpLoading(); }, 0});
+    out.push_back({state_->task, state_->task_done, "the scene before stays", [this] { giveUpLoading(); },
+                   state_->loading_began});
   if (scene_.framing())
     out.push_back({"looking for a good view", scene_.framingDone(), "the best view so far",
-                   [this] { scene_.hurryFraming(); }, scene_.framingBegan()});
+                   [this] { scene_.hurryFraming(); }, view_wanted_at_});
   if (const auto since = screenshots_.began()) {
     const auto give_up = [this] {
       screenshots_.giveUp();

@@ -119,7 +119,7 @@ void Viewer::takeState(double now) {
     if (state_->resumed && opening_) noteResumed();
     if (state_->facts->scene_path != framed_scene_) {
       rememberCamera(*before);
-      frame_wanted_ = camera_from_memory_ = true;
+      wantFrame(true);
       noteSky();
       memory_.noteScene(state_->facts->scene_path);
     } else {

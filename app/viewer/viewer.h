@@ -337,6 +337,11 @@ class Viewer {
   SceneDisplay::Wanted wanted() const;
   std::shared_ptr<const Snapshot> rivalSnapshot() const;
   bool frame();
+  void wantFrame(bool from_memory);
+  /// Whether a camera is looked for, or will be once there is light to judge it by.
+  bool looksForView() const {
+    return scene_.framing() || (frame_wanted_ && state_->snapshot && !snapshotRefused());
+  }
   void followFrame(const SessionState& before);
   void applyScale();
   void followShape(int width, int height, double now);
@@ -430,6 +435,7 @@ class Viewer {
   // The scene shown.
   std::filesystem::path framed_scene_;  // the camera is for this one
   bool frame_wanted_ = true;
+  double view_wanted_at_ = 0;  // when that began, until the camera is found
   std::shared_ptr<const Snapshot> refused_snapshot_;  // one that the driver has no room for
   std::deque<RatePoint> rate_points_;
 

@@ -333,9 +333,11 @@ void LiveSolve::begin(Start start) {
 void LiveSolve::announce(const std::string& task) {
   abandoned_ = false;
   forEachLane([](Lane& lane) { lane.rest(); });
+  const double now = wallSeconds();
+  if (task_.empty()) loading_began_ = now;
   task_ = task;
   task_done_ = 0;
-  task_began_ = last_told_ = wallSeconds();
+  task_began_ = last_told_ = now;
   publish();
 }
 
@@ -406,6 +408,7 @@ void LiveSolve::publish() {
   state->task = task_;
   if (!task_.empty()) state->task_done = task_done_;
   state->task_began = task_began_;
+  state->loading_began = loading_began_;
   state->gathering_began = sinceWhen(gathering_began_, state->gathering.has_value());
   state->completing_began = sinceWhen(completing_began_, state->completing.has_value());
   state->saving = saving_;

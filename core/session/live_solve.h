@@ -173,7 +173,7 @@ class LiveSolve {
   InsightWanted insight_;
   std::string task_;                                          // not empty while loading or saving
   bool saving_ = false;                                       // it is saving
-  double task_began_ = 0, last_told_ = 0;                     // wall time
+  double loading_began_ = 0, task_began_ = 0, last_told_ = 0;  // wall time
   std::optional<double> gathering_began_, completing_began_;  // wall time
   std::optional<double> task_done_;
   const CancelToken::Told told_ = [this](double done) { tell(done); };

@@ -84,6 +84,7 @@ struct SessionState : LaneState {
   std::string task;  ///< while loading or saving: what is being done, such as "reading room.obj"
   std::optional<double> task_done;                   ///< how much of it, from 0 to 1, where that is known
   double task_began = 0;                             ///< wallSeconds() then
+  double loading_began = 0;                          ///< the same, of the first task of what is being loaded
   double gathering_began = 0, completing_began = 0;  ///< the same, of LaneState::gathering and completing
   bool saving = false;                               ///< it is saving, which leaves the phase as it is
   std::optional<LaneState> rival;                    ///< in a race: the other solve

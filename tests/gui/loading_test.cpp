@@ -1,6 +1,7 @@
 // What takes its time and is shown to: how far it is, and that it can be given up.
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <imgui_internal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -45,6 +46,11 @@ TEST_P(GivenUp, LoadingLeavesTheSceneBefore) {
   const std::uint64_t epoch = live->state().epoch;
   live->perform("open", landscape_file);
   ASSERT_TRUE(live.untilPhase(SessionPhase::kLoading));
+  // Esc takes only what is shown.
+  ASSERT_TRUE(live.until([&] {
+    const std::vector<Task> tasks = live->tasks();
+    return !tasks.empty() && tasks.front().shown(wallSeconds());
+  }));
   live->perform(GetParam());
   ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
   live.draw();
@@ -55,6 +61,36 @@ TEST_P(GivenUp, LoadingLeavesTheSceneBefore) {
   EXPECT_EQ(live->exitCode(), 0);
   live->perform("reflectance", "white 0.5,0.5,0.5");  // of the scene that stays
   EXPECT_FALSE(live->error());
+}
+
+// A small scene is there again before anybody could read that it is loaded.
+TEST(ShortTasks, DoNotFlash) {
+  LiveViewer::Options options;
+  options.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
+  options.solve.elements = 200;
+  LiveViewer live(options);
+  const auto rest = [&] { return live->state().phase == SessionPhase::kConverged && live->nextFrame(0) > 1e30; };
+  ASSERT_TRUE(live.until(rest));
+  const auto active = [](const char* name) {
+    const ImGuiWindow* window = ImGui::FindWindowByName(name);
+    return window && window->Active;
+  };
+  // Each of them loads, or looks for a view, anew.
+  for (const char* action : {"restart", "hemicube 32", "emit front", "sky 1,1,1", "frame"}) {
+    const std::string text = action;
+    const std::size_t space = std::min(text.find(' '), text.size());
+    const double began = wallSeconds();
+    int frames = 0;
+    live->perform(text.substr(0, space), text.substr(std::min(space + 1, text.size())));
+    ASSERT_TRUE(live.until([&] {
+      live.draw();
+      ++frames;
+      const bool said = active("tasks") || active("framing");
+      EXPECT_TRUE(!said || wallSeconds() > began + Task::kMoment) << text;
+      return live->upToDate() && rest();
+    }));
+    EXPECT_GT(frames, 1);
+  }
 }
 
 /// What a large scene tells while it is loaded.

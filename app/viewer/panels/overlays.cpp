@@ -151,7 +151,7 @@ float belowNames(const Viewer& viewer) {
   return viewer.referencePicture() && !viewer.ui().picture_difference ? name : 0;
 }
 
-void buildOverlays(Viewer& viewer, const LowerEdge& edge, bool covered, bool notices, bool framing) {
+void buildOverlays(Viewer& viewer, const LowerEdge& edge, bool covered, bool notices, bool looks) {
   const float size = ImGui::GetFontSize();
   const float height = ImGui::GetIO().DisplaySize.y;
   const float middle = edge.sceneWidth() / 2;
@@ -163,7 +163,7 @@ void buildOverlays(Viewer& viewer, const LowerEdge& edge, bool covered, bool not
   }
   if (notices && tasksWindow(viewer, middle)) {
     // What else there is to say is said once it is done.
-  } else if (framing && state.facts) {
+  } else if (looks) {
     lineOverScene("framing", "looking for a good view \u2026", {middle, height / 2}, {0.5f, 0.5f});
   } else if (state.phase == SessionPhase::kEmpty) {
     lineOverScene("empty", "Drop an OBJ scene here, or Ctrl+O", {middle, height / 2}, {0.5f, 0.5f});
