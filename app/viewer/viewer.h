@@ -177,7 +177,7 @@ class Viewer {
   Rates rates() const;
   double frameMilliseconds() const { return 1000 * frame_cost_; }
 
-  /// Or goes on from a saved solve of the present scene.
+  /// Reads a scene and solves it, or goes on from a saved solve of the present scene.
   void open(const std::filesystem::path& scene);
   /// The present scene as its files are now; the camera stays.
   void reload();
@@ -291,7 +291,7 @@ class Viewer {
   struct PaintedLook {
     GLuint framebuffer;
     int width, height;
-    std::uint64_t scene;  ///< SceneDisplay::version
+    std::uint64_t scene;  ///< SceneArea::version
     std::size_t gui;      ///< fingerprint
     bool operator==(const PaintedLook&) const = default;
   };
@@ -435,7 +435,7 @@ class Viewer {
   // The scene shown.
   std::filesystem::path framed_scene_;  // the camera is for this one
   bool frame_wanted_ = true;
-  double view_wanted_at_ = 0;  // when that began, until the camera is found
+  double view_wanted_at_ = 0;                         // when that began, until the camera is found
   std::shared_ptr<const Snapshot> refused_snapshot_;  // one that the driver has no room for
   std::deque<RatePoint> rate_points_;
 

@@ -171,10 +171,10 @@ class LiveSolve {
   bool paused_ = false;
   std::uint64_t steps_left_ = 0;  // before a pause; 0: no pause is due
   InsightWanted insight_;
-  std::string task_;                                          // not empty while loading or saving
-  bool saving_ = false;                                       // it is saving
+  std::string task_;                                           // not empty while loading or saving
+  bool saving_ = false;                                        // it is saving
   double loading_began_ = 0, task_began_ = 0, last_told_ = 0;  // wall time
-  std::optional<double> gathering_began_, completing_began_;  // wall time
+  std::optional<double> gathering_began_, completing_began_;   // wall time
   std::optional<double> task_done_;
   const CancelToken::Told told_ = [this](double done) { tell(done); };
   bool abandoned_ = false;  // what was to be loaded last was given up

@@ -65,23 +65,22 @@ TEST(Actions, KeysGoByWhatIsPrintedOnThem) {
     int wanted;
   };
   constexpr int kPlus = '=', kBracket = ']', kTab = 258, kKeypadPlus = 334;
-  for (const Key& k : {Key{'Y', "z", true, 'Z'},        // German
-                       Key{'Z', "y", true, 'Y'},        //
+  for (const Key& k : {Key{'Y', "z", true, 'Z'},          // German
+                       Key{'Z', "y", true, 'Y'},          //
                        Key{kBracket, "+", false, kPlus},  //
-                       Key{'/', "-", false, '-'},       //
-                       Key{';', "m", false, 'M'},       // French
-                       Key{'M', ",", false, 0},         //
-                       Key{'Q', "a", true, 'A'},        //
-                       Key{'A', "q", true, 'Q'},        //
-                       Key{'6', "-", false, '-'},       //
-                       Key{'6', "-", true, '6'},        //
-                       Key{'1', "&", true, '1'},        //
-                       Key{'Q', "'", true, 0},          // Dvorak
-                       Key{'S', "o", false, 'S'},       // a key of flying
-                       Key{'S', "o", true, 'O'},        //
-                       Key{'M', "\u044c", false, 'M'},  // Russian
-                       Key{kTab, nullptr, false, kTab},
-                       Key{kKeypadPlus, "+", false, kPlus}})
+                       Key{'/', "-", false, '-'},         //
+                       Key{';', "m", false, 'M'},         // French
+                       Key{'M', ",", false, 0},           //
+                       Key{'Q', "a", true, 'A'},          //
+                       Key{'A', "q", true, 'Q'},          //
+                       Key{'6', "-", false, '-'},         //
+                       Key{'6', "-", true, '6'},          //
+                       Key{'1', "&", true, '1'},          //
+                       Key{'Q', "'", true, 0},            // Dvorak
+                       Key{'S', "o", false, 'S'},         // a key of flying
+                       Key{'S', "o", true, 'O'},          //
+                       Key{'M', "\u044c", false, 'M'},    // Russian
+                       Key{kTab, nullptr, false, kTab}, Key{kKeypadPlus, "+", false, kPlus}})
     EXPECT_EQ(keyOfActions(k.key, k.printed, k.ctrl), k.wanted) << k.key << " " << k.ctrl;
 }
 

@@ -69,7 +69,9 @@ TEST(ShortTasks, DoNotFlash) {
   options.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
   options.solve.elements = 200;
   LiveViewer live(options);
-  const auto rest = [&] { return live->state().phase == SessionPhase::kConverged && live->nextFrame(0) > 1e30; };
+  const auto rest = [&] {
+    return live->state().phase == SessionPhase::kConverged && live->nextFrame(0) > 1e30;
+  };
   ASSERT_TRUE(live.until(rest));
   const auto active = [](const char* name) {
     const ImGuiWindow* window = ImGui::FindWindowByName(name);

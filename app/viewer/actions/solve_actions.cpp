@@ -35,7 +35,7 @@ std::span<const Action> solveActions() {
        [](Viewer& v, const std::string& a) { v.open(a); }},
       {"give-up",
        "",
-       "Give up what takes its time: loading, a screenshot",
+       "Give up the first of what takes its time, as the button over the scene does: loading, a save ...",
        {},
        [](Viewer& v, const std::string&) { v.giveUp(); }},
       {"browse",

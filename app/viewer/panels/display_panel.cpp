@@ -136,8 +136,10 @@ void lightChoices(Viewer& viewer) {
 
 void brightness(Viewer& viewer) {
   const DisplaySettings& settings = viewer.settings();
-  label("Tone curve",
-        "From exposed light to the display, where 1 is white. Pictures in files have the soft shoulder");
+  label(
+      "Tone curve",
+      "From exposed light to the display, where 1 is white. Screenshots have it too; unshot solve draws with "
+      "the soft shoulder");
   const std::string& tone = settings.view.tone;
   const DisplayMode& mode = displayMode(settings.view.display);
   const bool toned = mode.tone_mapped && !mode.false_colour;
