@@ -166,8 +166,9 @@ void Viewer::copyCamera(bool options) {
   requiredMesh();
   const Camera camera = *cameraInFile();
   ImGui::SetClipboardText((options ? cameraOptions(camera) : cameraLines(camera)).c_str());
-  // There are no options for it.
-  passingNotice(options && camera.orthographic ? "copied; unshot solve draws in perspective" : "copied");
+  if (options && camera.orthographic)
+    return notice("copied; unshot solve has no options for orthographic cameras");
+  passingNotice("copied");
 }
 
 }  // namespace unshot

@@ -69,7 +69,7 @@ bool Viewer::giveUp(bool shown) {
 void Viewer::giveUp(const Task& task) {
   const std::string text = task.text;
   task.giveUp();
-  passingNotice("given up: " + text);
+  notice("given up: " + text);
 }
 
 }  // namespace unshot

@@ -98,6 +98,7 @@ void Viewer::update(double now) {
   followHint(now);
   keepMovedCamera(now);
   fitToShape(now);
+  if (const std::string lost = memory_.takeComplaint(); !lost.empty()) notice(lost);
   if (notice_.expire(now)) input();
 }
 
@@ -273,7 +274,7 @@ void Viewer::noteResumed() {
   const std::string text = "goes on from " + from.path.string() + ": " + countedText(from.shots, "shot") +
                            " in " + figureText(from.seconds) + " s";
   std::cerr << "unshot: " << text << std::endl;
-  passingNotice(text);
+  notice(text);
 }
 
 void Viewer::giveUpLoading() {
@@ -337,9 +338,8 @@ void Viewer::step(std::uint64_t shots) {
   // A command under way may be what begins the solve anew.
   const bool up_to_date = session_.sent() == state_->commands;
   if (up_to_date && state_->phase == SessionPhase::kConverged)
-    passingNotice(state_->stopped_by == "no light" ? "no light to shoot" : "converged; Again shoots it anew");
-  if (up_to_date && state_->phase == SessionPhase::kStopped)
-    passingNotice("limit reached; Again shoots it anew");
+    notice(state_->stopped_by == "no light" ? "no light to shoot" : "converged; Again shoots it anew");
+  if (up_to_date && state_->phase == SessionPhase::kStopped) notice("limit reached; Again shoots it anew");
   session_.step(shots);
 }
 

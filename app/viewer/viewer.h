@@ -263,12 +263,13 @@ class Viewer {
   /// Saves the present solve, which goes on, at its next pause between two steps. An empty path: a new name
   /// in the working folder.
   void saveSolve(std::filesystem::path path);
-  /// A line that stays until it was read; one for a moment, instead of the one before.
+  /// A line that stays until it was read; one for a moment, which only echoes a key or a button.
   void notice(std::string text);
   void passingNotice(std::string text);
   void showError(const Error& error, bool of_solve = false);
   const std::optional<Error>& error() const { return notice_.error(); }
   const Messages& messages() const { return notice_; }
+  void noteMessagesRead() { notice_.readAll(); }
   void dismissNotices();
   /// A list of all actions, or of a folder's scenes (none: where the last one was), with a text to begin
   /// with.
