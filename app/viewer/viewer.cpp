@@ -110,6 +110,8 @@ void Viewer::takeState(double now) {
     gui_frames_ = std::max(gui_frames_, 2);  // its window takes its size in the second
   const bool news = latest->phase != state_->phase || latest->problems != state_->problems;
   const bool another = latest->epoch != state_->epoch;
+  if (another && opening_ && latest->snapshot && latest->snapshot->mesh->materials != edits_.materials())
+    keepEdits();
   const std::shared_ptr<const SessionState> before = std::exchange(state_, latest);
   if (another) {
     rate_points_.clear();
@@ -157,6 +159,7 @@ void Viewer::takeMaterials() {
   const std::optional<std::uint64_t> opened = std::exchange(opening_, std::nullopt);
   if (opened && state_->epoch > *opened) {
     edits_.begin(materials);
+    edited_by_hand_ = false;
     // Watching may have been switched on while it was read.
     if (watching_ && watch_.sceneOpening() != state_->facts->scene_path)
       watch_.opening(state_->facts->scene_path);
@@ -296,7 +299,25 @@ void Viewer::edit(const std::function<void(MaterialEdits&)>& change) {
   if (opening_) throw Error(ErrorKind::kUsage, "a scene is being opened", {}, "to wait until it is there");
   const std::vector<Material> before = edits_.materials();
   change(edits_);
-  if (edits_.materials() != before) session_.edit(edits_.materials());
+  if (edits_.materials() == before) return;
+  edited_by_hand_ = edited_by_hand_ || !hold_;
+  session_.edit(edits_.materials());
+}
+
+/// Writes what was made of the materials by hand and is in no file, before it goes. Scripts know what they
+/// do.
+void Viewer::keepEdits() {
+  if (!edited_by_hand_ || !edits_.unsaved()) return;
+  try {
+    const std::filesystem::path path = rescueName(".mtl");
+    writeMaterials(path, edits_.materials());
+    edits_.noteSaved();
+    const std::string text = "written: " + path.string() + " (materials as they were edited)";
+    notice(text);
+    if (closing_) std::cerr << "unshot: " << text << std::endl;
+  } catch (...) {
+    fail(presentError());
+  }
 }
 
 std::optional<double> Viewer::gesture() const {
@@ -309,6 +330,7 @@ void Viewer::saveMaterials(std::filesystem::path path) {
   if (edits_.materials().empty())
     throw Error(ErrorKind::kUsage, "there are no materials to save yet", {}, "open a scene");
   writeMaterials(path, edits_.materials());
+  edits_.noteSaved();
   notice("written: " + path.string());
 }
 
@@ -384,25 +406,28 @@ void Viewer::noteSaved(const SessionState& before) {
 
 void Viewer::finish() {
   closing_ = true;
+  keepEdits();
   rememberCamera(*state_);
   rememberPanel();
   session_.close();
   takeState(wallSeconds());
 }
 
-/// For a solve that has to be saved somewhere.
-std::filesystem::path Viewer::rescueName() const {
+/// For what has to be saved somewhere.
+std::filesystem::path Viewer::rescueName(const std::string& ending) const {
   try {
-    return newFileName(".unshot");
-  } catch (const Error&) {  // the working folder is gone
-    return newFileName(".unshot", std::filesystem::temp_directory_path());
+    const std::filesystem::path path = newFileName(ending);
+    checkWritable(path);
+    return path;
+  } catch (const Error&) {  // the working folder is gone, or not ours
+    return newFileName(ending, std::filesystem::temp_directory_path());
   }
 }
 
 Error Viewer::rescue(const Error& error) {
   screenshots_.drop();
   const bool lost = setup_.session.kept.path.empty() && state_->facts && state_->measures.shots > 0;
-  const std::filesystem::path path = lost ? rescueName() : std::filesystem::path();
+  const std::filesystem::path path = lost ? rescueName(".unshot") : std::filesystem::path();
   const std::uint64_t saves = state_->saves;
   if (lost) session_.save(path);
   finish();

@@ -309,6 +309,7 @@ class Viewer {
   void takeState(double now);
   void noteRates(double now);
   void takeMaterials();
+  void keepEdits();
   void noteSky();
   void resumeSaved(const std::filesystem::path& file);
   void noteResumed();
@@ -376,7 +377,7 @@ class Viewer {
   bool mayStillSave() const { return state_->saving || !setup_.session.kept.path.empty() || !upToDate(); }
   std::filesystem::path newFileName(const std::string& ending,
                                     const std::filesystem::path& folder = {}) const;
-  std::filesystem::path rescueName() const;
+  std::filesystem::path rescueName(const std::string& ending) const;
 
   ViewerSetup setup_;
   struct GuiContext {
@@ -391,6 +392,7 @@ class Viewer {
   std::shared_ptr<const SessionState> state_;
   ViewerState ui_;
   MaterialEdits edits_;
+  bool edited_by_hand_ = false;               // not by the script alone
   std::optional<std::uint64_t> opening_ = 0;  // another scene than edits_ are of: the epoch before it
   double scale_ = 0, screen_scale_ = 1, relative_scale_ = 1;
 

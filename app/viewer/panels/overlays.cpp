@@ -92,7 +92,9 @@ void changedWindow(Viewer& viewer, float middle, float top) {
   ImGui::TextUnformatted("The scene changed on disk");
   ImGui::SameLine();
   if (ImGui::Button("Reload")) viewer.perform("reload");
-  tooltip("F5: reads its files again and solves it; the camera stays, changes of materials go");
+  tooltip(
+      "F5: reads its files again and solves it; the camera stays, changes of materials go into a new MTL "
+      "file");
   ImGui::SameLine();
   if (ImGui::Button("Keep")) viewer.perform("dismiss");
   tooltip("Esc: goes on with what was read before. The action watch off asks no more");
