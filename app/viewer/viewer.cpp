@@ -12,7 +12,7 @@
 #include "export/materials.h"
 #include "viewer/actions/actions.h"
 #include "viewer/comparison.h"
-#include "viewer/file_list.h"
+#include "viewer/file_kinds.h"
 #include "viewer/panels/panels.h"
 #include "viewer/panels/theme.h"
 #include "viewer/teaching.h"
@@ -253,7 +253,12 @@ void Viewer::dismissNotices() {
 }
 
 void Viewer::open(const std::filesystem::path& scene) {
-  if (lowered(scene.extension().string()) == ".unshot") return resumeSaved(scene);
+  const FileKind* const kind = kindOfFile(scene);
+  if (kind && kind->action != "open")
+    throw Error(
+        ErrorKind::kInput, "this is no scene but " + std::string(kind->what), scene.string(),
+        std::string(kind->action.empty() ? kind->instead : "the action ") + std::string(kind->action));
+  if (kind && !isScene(scene)) return resumeSaved(scene);
   if (watching_) watch_.opening(scene);
   session_.open(scene, ui_.options);
   opening_ = state_->epoch;

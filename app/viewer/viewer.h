@@ -271,8 +271,7 @@ class Viewer {
   const Messages& messages() const { return notice_; }
   void noteMessagesRead() { notice_.readAll(); }
   void dismissNotices();
-  /// A list of all actions, or of a folder's scenes (none: where the last one was), with a text to begin
-  /// with.
+  /// A list of all actions, or of a folder's files (none: where the last one was), with a text to begin with.
   void searchActions(const std::string& text);
   void browse(const std::filesystem::path& folder);
   /// What takes its time, of what is under way.

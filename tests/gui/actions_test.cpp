@@ -17,6 +17,7 @@
 #include "support/assets.h"
 #include "support/live_viewer.h"
 #include "support/temp_folder.h"
+#include "viewer/file_kinds.h"
 
 namespace unshot {
 namespace {
@@ -91,6 +92,21 @@ TEST(DroppedFiles, TheFirstSceneCounts) {
   EXPECT_EQ(chosen({"a.mtl", "b.png", "c.OBJ", "d.obj"}), "c.OBJ");
   EXPECT_EQ(chosen({"a.mtl", "b.HDR", "c.png"}), "b.HDR");
   EXPECT_EQ(chosen({"a.mtl", "b.txt"}), "a.mtl");
+  EXPECT_EQ(chosen({"a.script", "b.PLY", "c.unshot"}), "b.PLY");
+}
+
+TEST(FileKinds, EachHasAnActionOrSaysWhatToDo) {
+  for (const FileKind& kind : fileKinds()) {
+    SCOPED_TRACE(kind.ending);
+    EXPECT_EQ(kind.action.empty(), !kind.instead.empty());
+    if (kind.action.empty()) continue;
+    EXPECT_TRUE(findAction(kind.action).needsArgument());
+    EXPECT_EQ(actionOfFile("a" + std::string(kind.ending)), kind.action);
+    std::string name(kind.ending.substr(1));
+    std::transform(name.begin(), name.end(), name.begin(), [](char c) { return static_cast<char>(c - 'a' + 'A'); });
+    if (kind.ending == ".jpg" || kind.action == "open") continue;
+    EXPECT_THAT(findAction(kind.action).help, HasSubstr(name == "PLY" ? "--ply" : name)) << "not in the help";
+  }
 }
 
 TEST(Actions, UnknownOnesAreUsageErrors) {

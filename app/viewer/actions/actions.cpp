@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/parse.h"
 #include "viewer/actions/action_groups.h"
-#include "viewer/file_list.h"
+#include "viewer/file_kinds.h"
 
 namespace unshot {
 
@@ -68,20 +68,12 @@ std::string checkArgument(const Action& action, const std::string& argument) {
 }
 
 std::string_view actionOfFile(const std::filesystem::path& file) {
-  const std::string ending = lowered(file.extension().string());
-  for (const char* picture : {".png", ".hdr", ".pfm", ".jpg", ".jpeg"}) {
-    if (ending == picture) return "reference-picture";
-  }
-  return "open";
+  return isTaken(file) ? kindOfFile(file)->action : "open";
 }
 
 std::filesystem::path chosenFile(std::span<const char* const> files) {
-  const auto first = [&](auto&& fits) { return std::find_if(files.begin(), files.end(), fits); };
-  const auto isScene = [](const char* file) {
-    return lowered(std::filesystem::path(file).extension().string()) == ".obj";
-  };
-  auto found = first(isScene);
-  if (found == files.end()) found = first([](const char* file) { return actionOfFile(file) != "open"; });
+  auto found = std::find_if(files.begin(), files.end(), isScene);
+  if (found == files.end()) found = std::find_if(files.begin(), files.end(), isTaken);
   return found == files.end() ? files.front() : *found;
 }
 

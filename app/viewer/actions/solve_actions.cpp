@@ -30,7 +30,7 @@ std::span<const Action> solveActions() {
   static constexpr auto kActions = std::to_array<Action>({
       {"open",
        "PATH",
-       "Open a scene and solve it (or drop a file on the window)",
+       "Open a scene and solve it, or go on from a saved solve of it (or drop the file on the window)",
        {},
        [](Viewer& v, const std::string& a) { v.open(a); }},
       {"give-up",
@@ -40,7 +40,7 @@ std::span<const Action> solveActions() {
        [](Viewer& v, const std::string&) { v.giveUp(); }},
       {"browse",
        "[FOLDER]",
-       "Choose a scene from a list of files",
+       "Choose a file from a list: a scene, a saved solve of it, a picture or solution to compare with",
        {GLFW_KEY_O, true, "Ctrl+O"},
        [](Viewer& v, const std::string& a) { v.browse(a); }},
       {"reload",

@@ -117,6 +117,10 @@ void lightChoices(Viewer& viewer) {
   if (ImGui::Button("Forget")) viewer.perform("forget");
   tooltip(reference ? "Compared with " + reference->name : "Compared with direct light alone");
   ImGui::EndDisabled();
+  ImGui::SameLine();
+  if (ImGui::Button("File \u2026##reference")) viewer.perform("browse");
+  tooltip(
+      "Ctrl+O: chooses a solution that unshot solve wrote (PLY) to compare with. Or drop one on the window");
   bool on = settings.view.light.indirect;
   if (ImGui::Checkbox("Radiosity", &on)) viewer.perform("radiosity", on ? "on" : "off");
   tooltip(

@@ -44,7 +44,8 @@ std::vector<HelpGroup> helpGroups(const Viewer& viewer) {
         {"Wheel", "To what is under the mouse, and away from it"},
         {flightKeys(viewer), "Fly; down and up. Shift: faster"},
         {"Right, wheel", "Speed of flight"},
-        {"Drop a file", "Open an OBJ scene, go on from a saved solve, compare with a picture"}}}};
+        {"Drop a file",
+         "Open an OBJ scene, go on from a saved solve, compare with a picture or a solution"}}}};
   for (const ActionGroup& group : actionGroups()) {
     HelpGroup help{std::string(group.title), {}};
     for (const Action& action : group.actions) {

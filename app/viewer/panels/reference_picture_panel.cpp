@@ -92,8 +92,14 @@ void figure(const ReferencePicture& picture, bool difference, LowerEdge& edge) {
 
 void referencePictureChoices(Viewer& viewer) {
   const ReferencePicture* picture = viewer.referencePicture();
-  if (!picture) return;
   label("Compare", kErrorTip);
+  if (!picture) {
+    if (ImGui::Button("Picture \u2026")) viewer.perform("browse");
+    return tooltip(
+        "Ctrl+O: chooses a picture (PNG, JPEG, HDR, PFM) of the present camera that is laid over the scene. "
+        "Or "
+        "drop one on the window");
+  }
   bool difference = viewer.ui().picture_difference;
   if (ImGui::Checkbox("Difference##picture", &difference))
     viewer.perform("picture-difference", difference ? "on" : "off");
