@@ -61,6 +61,7 @@ struct LaneState {
   bool bounces_under_way = false;  ///< light by bounces is being worked out, or will be once the solve rests
   bool spare_work = false;     ///< the solve rests, and its estimates or light by bounces still get better
   double progress = 0;         ///< Solve::progress
+  std::string activity;        ///< Solve::activity
   std::size_t kept_bytes = 0;  ///< memory held by kept columns
   std::shared_ptr<const Insight> insight;         ///< what was asked for by lookInto(); null before that
   std::uint64_t drawn = 0;                        ///< hemicubes drawn
