@@ -132,7 +132,9 @@ void LiveSolve::perform(const command::Edit& c) {
   Scene edited = editedScene(lane.solve().scene(), c.materials);
   // A race that is fair begins with nothing shot.
   if (!rival_ && !lane.broken() && lane.solve().canEdit(edited.materials)) {
-    lane.rest();
+    const TaskBeside task(*this, "changing materials", &LiveSolve::editing_);
+    task_done_.reset();
+    publish();
     return lane.edit(
         edited.materials, [this]() -> gl::Context& { return context(); }, CancelToken(*setup_.given_up));
   }
@@ -261,7 +263,7 @@ void LiveSolve::recover() {
 }
 
 SessionPhase LiveSolve::phase() const {
-  if (!task_.empty() && !saving_) return SessionPhase::kLoading;
+  if (!task_.empty() && !saving_ && !editing_) return SessionPhase::kLoading;
   if (!lane_) return SessionPhase::kEmpty;
   const bool rival_runs = rival_ && rival_->running();
   return (rival_runs ? *rival_ : *lane_).phase(paused_);
@@ -341,22 +343,25 @@ void LiveSolve::announce(const std::string& task) {
   publish();
 }
 
+LiveSolve::TaskBeside::TaskBeside(LiveSolve& live, std::string task, bool LiveSolve::*under_way)
+    : live_(live), under_way_(under_way) {
+  live.forEachLane([](Lane& lane) { lane.rest(); });
+  live.task_ = std::move(task);
+  live.*under_way = true;
+  live.task_done_ = 0;
+  live.task_began_ = live.last_told_ = wallSeconds();
+}
+
+LiveSolve::TaskBeside::~TaskBeside() {
+  live_.task_.clear();
+  live_.*under_way_ = false;
+}
+
 /// Saves, and tells how far that is where it takes a while.
 template <class Save>
 void LiveSolve::saving(const std::filesystem::path& path, Save&& save) {
-  forEachLane([](Lane& lane) { lane.rest(); });
-  struct Saving {
-    LiveSolve& live;
-    ~Saving() {
-      live.task_.clear();
-      live.saving_ = false;
-    }
-  } const ends{*this};
   *setup_.save_given_up = false;
-  task_ = "saving " + path.filename().string();
-  saving_ = true;
-  task_done_ = 0;
-  task_began_ = last_told_ = wallSeconds();
+  const TaskBeside task(*this, "saving " + path.filename().string(), &LiveSolve::saving_);
   save(CancelToken(*setup_.save_given_up, &told_));
 }
 
@@ -412,6 +417,7 @@ void LiveSolve::publish() {
   state->gathering_began = sinceWhen(gathering_began_, state->gathering.has_value());
   state->completing_began = sinceWhen(completing_began_, state->completing.has_value());
   state->saving = saving_;
+  state->editing = editing_;
   state->resumed = resumed_;
   state->problems = problems_;
   state->problem = problem_;

@@ -90,6 +90,8 @@ class LiveSolve {
   /// Carries it out and publishes. What fails becomes SessionState::problem; what is given up leaves all as
   /// it was.
   void carryOut(const Command& command);
+  /// All that was sent is carried out: what was given up of it is no matter to what is sent from now on.
+  void forgetGivenUp() { abandoned_ = false; }
   /// Whether step() has something to do.
   bool running() const { return phase() == SessionPhase::kRunning; }
   /// One step of the solve, or in a race of the one that has had less time; publishes where due.
@@ -141,6 +143,18 @@ class LiveSolve {
   void saveKept();
   void takeSteps();
   void announce(const std::string& task);
+  /// Tells of a task that leaves the phase as it is, for as long as it lives.
+  class TaskBeside {
+   public:
+    TaskBeside(LiveSolve& live, std::string task, bool LiveSolve::*under_way);
+    ~TaskBeside();
+    TaskBeside(const TaskBeside&) = delete;
+    TaskBeside& operator=(const TaskBeside&) = delete;
+
+   private:
+    LiveSolve& live_;
+    bool LiveSolve::*under_way_;
+  };
   template <class Save>
   void saving(const std::filesystem::path& path, Save&& save);
   CancelToken loading() const { return CancelToken(*setup_.given_up, &told_); }
@@ -171,8 +185,8 @@ class LiveSolve {
   bool paused_ = false;
   std::uint64_t steps_left_ = 0;  // before a pause; 0: no pause is due
   InsightWanted insight_;
-  std::string task_;                                           // not empty while loading or saving
-  bool saving_ = false;                                        // it is saving
+  std::string task_;  // not empty while loading or in a task beside
+  bool saving_ = false, editing_ = false;
   double loading_began_ = 0, task_began_ = 0, last_told_ = 0;  // wall time
   std::optional<double> gathering_began_, completing_began_;   // wall time
   std::optional<double> task_done_;

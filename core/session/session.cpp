@@ -83,7 +83,7 @@ struct Session::Impl {
 
   void run();
   void finish(LiveSolve& live);
-  std::optional<Command> next(bool idle);
+  std::optional<Command> next(LiveSolve& live);
   void publish(std::shared_ptr<const SessionState> state);
 };
 
@@ -99,7 +99,7 @@ void Session::Impl::run() {
     try {
       if (shaken) live.recover();
       shaken = false;
-      if (const std::optional<Command> command = next(!live.running() && !live.hasSpareWork()))
+      if (const std::optional<Command> command = next(live))
         live.carryOut(*command);
       else if (live.running() && !closing)
         live.step();
@@ -130,8 +130,10 @@ void Session::Impl::finish(LiveSolve& live) {
 
 // The next command, waited for where the thread is idle or held; none where there is none yet, or where the
 // session closes.
-std::optional<Command> Session::Impl::next(bool idle) {
+std::optional<Command> Session::Impl::next(LiveSolve& live) {
+  const bool idle = !live.running() && !live.hasSpareWork();
   std::unique_lock lock(mutex);
+  if (queue.empty()) live.forgetGivenUp();
   arrived.wait(lock, [&] { return closing || !queue.empty() || (!idle && holds == 0); });
   if (closing || queue.empty()) return std::nullopt;
   current = std::move(queue.front());

@@ -59,7 +59,10 @@ TEST_P(GivenUp, LoadingLeavesTheSceneBefore) {
   EXPECT_EQ(live->ui().options.elements, 300u);
   EXPECT_FALSE(live->error());
   EXPECT_EQ(live->exitCode(), 0);
-  live->perform("reflectance", "white 0.5,0.5,0.5");  // of the scene that stays
+  // Of the scene that stays.
+  live->perform("reflectance", "white 0.5,0.5,0.5");
+  live->perform("save-solve", folder / "s.unshot");
+  ASSERT_TRUE(live.until([&] { return live->state().saves == 1 || live->error(); }));
   EXPECT_FALSE(live->error());
 }
 
@@ -175,6 +178,34 @@ TEST_F(LongTasks, ASaveThatIsGivenUpIsSaidAndStopsNothingElse) {
   EXPECT_FALSE(viewer().error());
   const std::uint64_t shots = viewer().state().measures.shots;
   EXPECT_TRUE(live().until([&] { return viewer().state().measures.shots > shots; }));
+}
+
+TEST_F(LongTasks, AChangeOfMaterialsCanBeGivenUp) {
+  ASSERT_TRUE(untilShot());
+  const std::vector<Material> before = viewer().edits().materials();
+  std::vector<Task> tasks;
+  viewer().perform("reflectance", "ground 0.5,0.25,0.125");
+  ASSERT_TRUE(live().until([&] {
+    tasks = viewer().tasks();
+    return viewer().state().editing;
+  }));
+  ASSERT_FALSE(tasks.empty());
+  EXPECT_EQ(tasks.back().text, "changing materials");
+  EXPECT_NE(viewer().state().phase, SessionPhase::kLoading);
+  viewer().giveUp(tasks.back());
+  ASSERT_TRUE(live().until([&] { return viewer().upToDate(); }));
+  EXPECT_EQ(viewer().edits().materials(), before);
+  EXPECT_EQ(viewer().state().epoch, 1u);
+  EXPECT_FALSE(viewer().state().editing);
+  // The solve goes on, can be edited again, and is saved as any other.
+  viewer().perform("save-solve", folder_ / "s.unshot");
+  ASSERT_TRUE(live().until([&] { return viewer().state().saves == 1 || viewer().error(); }));
+  EXPECT_FALSE(viewer().error());
+  viewer().perform("reflectance", "ground 0.5,0.25,0.125");
+  EXPECT_TRUE(live().until([&] {
+    return viewer().upToDate() && viewer().state().snapshot->mesh->materials == viewer().edits().materials();
+  }));
+  EXPECT_NE(viewer().edits().materials(), before);
 }
 
 TEST_F(LongTasks, AReferenceThatIsGivenUpIsNone) {
