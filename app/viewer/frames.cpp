@@ -64,8 +64,9 @@ double Viewer::nextFrame(double now) const {
 double Viewer::nextPaint() const {
   const bool poses = screenshots_.posing() && (!screenshots_.panelsStand() || screenshotStands());
   if (gui_frames_ == 0 && !poses && !navigator_.moving()) {
-    const bool waits = waitsForFiles() || looksForView() || state_->saving || state_->editing ||
-                       state_->phase == SessionPhase::kLoading || teaching_->preparing().has_value();
+    const bool waits = waitsForFiles() || looksForView() || scene_.waitingSince() || state_->saving ||
+                       state_->editing || state_->phase == SessionPhase::kLoading ||
+                       teaching_->preparing().has_value();
     return std::min(waits ? last_frame_ + kProgressSeconds : kNever, nextMeasure());
   }
   const double soon = last_frame_ + kFrameSeconds;

@@ -25,6 +25,11 @@ std::vector<Task> Viewer::tasks() {
   if (scene_.framing())
     out.push_back({"looking for a good view", scene_.framingDone(), "the best view so far",
                    [this] { scene_.hurryFraming(); }, view_wanted_at_});
+  if (const auto since = scene_.waitingSince()) {
+    const bool edges = displayMode(ui_.settings.view.display).edges;
+    out.push_back({edges ? "finding edges" : "colouring patches", std::nullopt, "the display before stays",
+                   [this] { giveUpDisplay(); }, *since});
+  }
   if (const auto since = screenshots_.began()) {
     const auto give_up = [this] {
       screenshots_.giveUp();
@@ -59,6 +64,14 @@ std::vector<Task> Viewer::tasks() {
     out.push_back({"preparing the hemicube", std::nullopt, "the hemicube is closed",
                    [this] { teaching_->giveUpLooking(); }, *since});
   return out;
+}
+
+/// Back to the one that is shown, where that needs nothing to be found.
+void Viewer::giveUpDisplay() {
+  std::string& display = ui_.settings.view.display;
+  const std::string& before = scene_.shownDisplay();
+  display = before.empty() || before == display ? "radiosity" : before;
+  scene_.giveUpWaiting();
 }
 
 bool Viewer::giveUp(bool shown) {

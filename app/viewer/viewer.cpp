@@ -37,7 +37,7 @@ Viewer::GuiContext::~GuiContext() { ImGui::DestroyContext(); }
 Viewer::Viewer(ViewerSetup setup)
     : setup_(std::move(setup)),
       gui_(*setup_.display),
-      scene_(*setup_.display),
+      scene_(*setup_.display, setup_.session.wake),
       screenshots_(*setup_.display, gui_, setup_.session.wake),
       session_(setup_.session),
       state_(session_.latest()),

@@ -225,6 +225,8 @@ class Viewer {
   void loadReferencePicture(const std::filesystem::path& file);
   void giveUpReferencePicture();
   void forgetReferencePicture();
+  /// A display mode whose edges or colours are still to be found.
+  void giveUpDisplay();
   /// Null where there is none, or where the display mode shows nothing to compare with it.
   const ReferencePicture* referencePicture() const;
   /// Finds the automatic camera again.
