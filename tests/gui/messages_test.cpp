@@ -13,6 +13,7 @@
 
 #include "base/clock.h"
 #include "gui/support/gui_layout.h"
+#include "gui/support/mouse.h"
 #include "support/live_viewer.h"
 #include "support/temp_folder.h"
 #include "viewer/window_words.h"
@@ -208,6 +209,28 @@ TEST(ViewerMessages, WhatACommandCameToIsToBeRead) {
   live->perform("copy-camera", "options");
   EXPECT_EQ(live->messages().unread(), 2u);
   EXPECT_TRUE(live->messages().stays());
+}
+
+// In a small window they take much of the scene.
+TEST(ViewerMessages, LeaveTheMouseToTheScene) {
+  LiveViewer::Options options = box();
+  options.width = 640;
+  options.height = 360;
+  LiveViewer live(options);
+  ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
+  ASSERT_TRUE(live.until([&] { return live->nextFrame(0) > 1e30; }));
+  live->notice("written: /a/folder/with/a/long/name/and/another/one/picture.png");
+  testing_support::Mouse mouse(live);
+  mouse.frames();
+  const ImGuiWindow* window = ImGui::FindWindowByName("notice");
+  ASSERT_TRUE(window && window->Active);
+  const ImRect box_of_notice = window->Rect();
+  ASSERT_GT(box_of_notice.GetHeight(), 30) << "one line";
+  const glm::dvec3 eye = live->camera().eye;
+  mouse.drag({box_of_notice.Min.x + 20, box_of_notice.GetCenter().y});
+  EXPECT_NE(live->camera().eye, eye) << "the scene cannot be turned below the line";
+  mouse.click({box_of_notice.Max.x - 14, box_of_notice.Min.y + 14});
+  EXPECT_THAT(live->messages().lines(), IsEmpty());
 }
 
 TEST(ViewerMessages, TheWindowSaysThatNothingIsRemembered) {

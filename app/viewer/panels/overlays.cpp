@@ -1,4 +1,6 @@
 // What lies over the scene: messages, what is being loaded, help and prompts.
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <vector>
 
@@ -110,7 +112,7 @@ void lineOverScene(const char* id, const std::string& text, ImVec2 at, ImVec2 pi
 }
 
 /// Files that were written and the like, above the lower edge. Where they stay there is a button to close
-/// them.
+/// them; the text itself leaves the mouse to the scene.
 void noticeWindow(Viewer& viewer, const std::vector<std::string>& lines, const LowerEdge& edge) {
   const float middle = edge.sceneWidth() / 2, size = ImGui::GetFontSize();
   const float room = std::max(2 * middle, 12 * size) - 3 * size;
@@ -140,6 +142,9 @@ void noticeWindow(Viewer& viewer, const std::vector<std::string>& lines, const L
     ImGui::SameLine();
     if (ImGui::SmallButton("\u00d7")) viewer.perform("dismiss-notices");
     tooltip("Esc. All messages of late are under \"Messages\" in the panel");
+    const float text = ImGui::GetItemRectMin().x - ImGui::GetWindowPos().x;
+    ImGui::SetWindowHitTestHole(ImGui::GetCurrentWindow(), ImGui::GetWindowPos(),
+                                {text, ImGui::GetWindowHeight()});
   }
   ImGui::End();
 }
