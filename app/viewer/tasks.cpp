@@ -1,6 +1,9 @@
 // What of the viewer's doing takes its time, and giving it up.
 #include "viewer/tasks.h"
 
+#include <algorithm>
+
+#include "base/clock.h"
 #include "viewer/teaching.h"
 #include "viewer/viewer.h"
 
@@ -74,11 +77,19 @@ void Viewer::giveUpDisplay() {
   scene_.giveUpWaiting();
 }
 
-bool Viewer::giveUp(bool shown) {
-  std::vector<Task> all = tasks();
-  if (shown) std::erase_if(all, [](const Task& task) { return !task.shown(wallSeconds()); });
-  if (all.empty()) return false;
-  giveUp(all.front());
+bool Viewer::giveUp(std::size_t number) {
+  const std::vector<Task> all = tasks();
+  if (number >= all.size()) return false;
+  giveUp(all[number]);
+  return true;
+}
+
+bool Viewer::giveUpShown() {
+  const std::vector<Task> all = tasks();
+  const auto shown =
+      std::find_if(all.begin(), all.end(), [](const Task& task) { return task.shown(wallSeconds()); });
+  if (shown == all.end()) return false;
+  giveUp(*shown);
   return true;
 }
 

@@ -228,7 +228,7 @@ void Viewer::dismiss() {
     ui_.prompt.close();
   } else if (ui_.help) {
     ui_.help = false;
-  } else if (giveUp(true)) {
+  } else if (giveUpShown()) {
     return;
   } else if (sceneChanged()) {
     keepScene();

@@ -279,8 +279,10 @@ class Viewer {
   /// What takes its time, of what is under way.
   std::vector<Task> tasks();
   void giveUp(const Task& task);
-  /// Gives up the first of them, or of those that are `shown`; whether there is one.
-  bool giveUp(bool shown = false);
+  /// Gives up one of them, from 0 on; whether there is one.
+  bool giveUp(std::size_t number);
+  /// The first that is shown.
+  bool giveUpShown();
   /// Closes what lies over the scene: the message, else the help, else gives up a task that is shown, else
   /// notices, else what is picked.
   void dismiss();

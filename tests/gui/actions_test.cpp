@@ -103,7 +103,8 @@ TEST(FileKinds, EachHasAnActionOrSaysWhatToDo) {
     EXPECT_TRUE(findAction(kind.action).needsArgument());
     EXPECT_EQ(actionOfFile("a" + std::string(kind.ending)), kind.action);
     std::string name(kind.ending.substr(1));
-    std::transform(name.begin(), name.end(), name.begin(), [](char c) { return static_cast<char>(c - 'a' + 'A'); });
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](char c) { return static_cast<char>(c - 'a' + 'A'); });
     if (kind.ending == ".jpg" || kind.action == "open") continue;
     EXPECT_THAT(findAction(kind.action).help, HasSubstr(name == "PLY" ? "--ply" : name)) << "not in the help";
   }
@@ -131,7 +132,8 @@ TEST(Actions, ChecksRefuseNonsenseAndNeverThrow) {
                                           "-inf",
                                           "1e999",
                                           "0x10",
-                                          "1,2",
+                                          "1;2",
+                                          "1,2,3,4",
                                           "1e-400",
                                           "--",
                                           "\xff\xfe",

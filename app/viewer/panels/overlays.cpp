@@ -98,7 +98,7 @@ void changedWindow(Viewer& viewer, float middle, float top) {
       "F5: reads its files again and solves it; the camera stays, changes of materials go into a new MTL "
       "file");
   ImGui::SameLine();
-  if (ImGui::Button("Keep")) viewer.perform("dismiss");
+  if (ImGui::Button("Keep")) viewer.perform("keep-scene");
   tooltip("Esc: goes on with what was read before. The action watch off asks no more");
   ImGui::End();
 }
