@@ -97,7 +97,7 @@ void histogram(Viewer& viewer) {
   if (toned) whiteLine(shown->placeOf(white), at, width, height);
   ImGui::Dummy({width, height + em});
   if (toned)
-    tooltip("White at " + figureText(white) +
+    tooltip("White at " + figureText(white) + " [W/m\u00b2, or the unit of what is shown]" +
             (shown->black > 0 ? "; black: " + percentText(shown->black) + " of the pixels" : ""));
 }
 
