@@ -65,10 +65,10 @@ std::string termText(std::size_t k, bool sums) {
   return out;
 }
 
-using Cell = std::pair<std::size_t, std::size_t>;  // row and column
+using MatrixCell = std::pair<std::size_t, std::size_t>;  // row and column
 
 std::string cellText(const Viewer& viewer, const std::vector<double>& values, const std::string& name,
-                     const Cell& cell) {
+                     const MatrixCell& cell) {
   const auto [i, j] = cell;
   const Teaching& teaching = viewer.teaching();
   const GatheredMatrix& m = *teaching.insight()->matrix;
@@ -82,9 +82,9 @@ std::string cellText(const Viewer& viewer, const std::vector<double>& values, co
 }
 
 /// The one that an action has chosen, where the matrix has it.
-std::optional<Cell> chosenCell(const Teaching& teaching) {
+std::optional<MatrixCell> chosenCell(const Teaching& teaching) {
   const std::size_t n = teaching.insight()->matrix->size();
-  const std::optional<Cell>& cell = teaching.choices.cell;
+  const std::optional<MatrixCell>& cell = teaching.choices.cell;
   return cell && cell->first < n && cell->second < n ? cell : std::nullopt;
 }
 
@@ -110,8 +110,9 @@ void heatMap(Viewer& viewer, const char* id, const std::vector<double>& values, 
     return std::min(n - 1,
                     static_cast<std::size_t>(std::max(0.0f, (to - from) / side) * static_cast<float>(n)));
   };
-  const std::optional<Cell> cell = hovered ? std::optional<Cell>({under(at.y, mouse.y), under(at.x, mouse.x)})
-                                           : chosenCell(viewer.teaching());
+  const std::optional<MatrixCell> cell =
+      hovered ? std::optional<MatrixCell>({under(at.y, mouse.y), under(at.x, mouse.x)})
+              : chosenCell(viewer.teaching());
   if (!cell) return;
   const auto [i, j] = *cell;
   list.AddRect({edge(at.x, j) - 1, edge(at.y, i) - 1}, {edge(at.x, j + 1) + 1, edge(at.y, i + 1) + 1},
@@ -381,7 +382,8 @@ void matrixPage(Viewer& viewer) {
   const std::vector<double>& other = choices.sums ? series.sum(choices.power) : series.power(choices.power);
   const std::string name = termText(choices.power, choices.sums);
   map(viewer, "##other", other, name, side);
-  if (const std::optional<Cell> cell = chosenCell(teaching)) wrapped(cellText(viewer, other, name, *cell));
+  if (const std::optional<MatrixCell> cell = chosenCell(teaching))
+    wrapped(cellText(viewer, other, name, *cell));
   radiusLine(viewer);
   terms(viewer);
   lightLine(viewer);
