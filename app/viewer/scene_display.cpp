@@ -140,7 +140,12 @@ bool SceneDisplay::draw(const Wanted& wanted, double seconds, double deadline) {
                   making_->wanted.height != wanted.height)) {
     making_.reset();
   }
-  if (!making_ && !marksStand(wanted)) return false;
+  if (!making_ && !marksStand(wanted)) {  // the picture before stays until they are found
+    if (view_.uploadBytes() == 0) return false;
+    const StateGuard guard(context_.functions());
+    upload(deadline);
+    return true;
+  }
   if (!outdated(wanted) && !gliding_) {
     glide_seconds_ = 0;
     return false;
