@@ -59,6 +59,8 @@ void LiveSolve::carryOut(const Command& command) {
   commands_ += edit ? 1 + edit->instead_of : 1;
   if (ran && !running()) offerToSaver();
   settle();
+  // Whoever sends more from now on is told what stays.
+  if (setup_.none_waits()) abandoned_ = false;
   publish();
 }
 

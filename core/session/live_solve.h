@@ -73,10 +73,11 @@ bool isSuperseded(const Command& command, const Command& later);
 struct LiveSolveSetup {
   gl::Context* gl = nullptr;                                         ///< as SessionSetup::gl
   std::function<void(std::shared_ptr<const SessionState>)> publish;  ///< takes each new state
-  const std::atomic<bool>* given_up = nullptr;                       ///< loading ends where it is raised
-  std::atomic<bool>* save_given_up = nullptr;                        ///< as saving does
-  const std::atomic<double>* interval = nullptr;                     ///< of publication [s]
-  KeptSolve kept;                                                    ///< as SessionSetup::kept
+  std::function<bool()> none_waits;  ///< whether all commands sent are carried out, or one is being
+  const std::atomic<bool>* given_up = nullptr;    ///< loading ends where it is raised
+  std::atomic<bool>* save_given_up = nullptr;     ///< as saving does
+  const std::atomic<double>* interval = nullptr;  ///< of publication [s]
+  KeptSolve kept;                                 ///< as SessionSetup::kept
 };
 
 /// Made, used and destroyed on one thread; the GL context is current there from its first need to the end.
@@ -90,8 +91,6 @@ class LiveSolve {
   /// Carries it out and publishes. What fails becomes SessionState::problem; what is given up leaves all as
   /// it was.
   void carryOut(const Command& command);
-  /// All that was sent is carried out: what was given up of it is no matter to what is sent from now on.
-  void forgetGivenUp() { abandoned_ = false; }
   /// Whether step() has something to do.
   bool running() const { return phase() == SessionPhase::kRunning; }
   /// One step of the solve, or in a race of the one that has had less time; publishes where due.
@@ -191,7 +190,7 @@ class LiveSolve {
   std::optional<double> gathering_began_, completing_began_;   // wall time
   std::optional<double> task_done_;
   const CancelToken::Told told_ = [this](double done) { tell(done); };
-  bool abandoned_ = false;  // what was to be loaded last was given up
+  bool abandoned_ = false;  // what commands that wait may be meant for was given up
   Saver saver_;
 
   std::uint64_t version_ = 0, epoch_ = 0, commands_ = 0, problems_ = 0;

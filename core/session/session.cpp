@@ -83,13 +83,19 @@ struct Session::Impl {
 
   void run();
   void finish(LiveSolve& live);
-  std::optional<Command> next(LiveSolve& live);
+  std::optional<Command> next(bool idle);
   void publish(std::shared_ptr<const SessionState> state);
+  /// For what is left at the end see finish().
+  bool noneWaits() const {
+    const std::lock_guard lock(mutex);
+    return queue.empty() && !closing;
+  }
 };
 
 void Session::Impl::run() {
   LiveSolve live({.gl = setup.gl,
                   .publish = [this](std::shared_ptr<const SessionState> state) { publish(std::move(state)); },
+                  .none_waits = [this] { return noneWaits(); },
                   .given_up = &given_up,
                   .save_given_up = &save_given_up,
                   .interval = &interval,
@@ -99,7 +105,7 @@ void Session::Impl::run() {
     try {
       if (shaken) live.recover();
       shaken = false;
-      if (const std::optional<Command> command = next(live))
+      if (const std::optional<Command> command = next(!live.running() && !live.hasSpareWork()))
         live.carryOut(*command);
       else if (live.running() && !closing)
         live.step();
@@ -130,10 +136,8 @@ void Session::Impl::finish(LiveSolve& live) {
 
 // The next command, waited for where the thread is idle or held; none where there is none yet, or where the
 // session closes.
-std::optional<Command> Session::Impl::next(LiveSolve& live) {
-  const bool idle = !live.running() && !live.hasSpareWork();
+std::optional<Command> Session::Impl::next(bool idle) {
   std::unique_lock lock(mutex);
-  if (queue.empty()) live.forgetGivenUp();
   arrived.wait(lock, [&] { return closing || !queue.empty() || (!idle && holds == 0); });
   if (closing || queue.empty()) return std::nullopt;
   current = std::move(queue.front());

@@ -166,7 +166,9 @@ float progressShown() {
 }
 
 TEST(StatusLine, ALineGrowsAsTheSolveGoesOn) {
-  LiveViewer viewer(box(1280, 720));
+  LiveViewer::Options options = box(1280, 720);
+  options.solve.elements = 10'000;
+  LiveViewer viewer(options);
   std::set<float> widths;
   ASSERT_TRUE(viewer.until([&] {
     viewer.draw();
