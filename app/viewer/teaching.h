@@ -42,7 +42,7 @@ struct TeachingChoices {
   bool allow_divergence = false;
   bool alike = false;
   double factor = 1, reflectance = 1;
-  /// What is marked where the mouse is over none: row and column of the matrix, from 0 on; a place in the
+  /// What is marked besides what the mouse is over: row and column of the matrix, from 0 on; a place in the
   /// cross of the hemicube, from 0,0 (left, top) to 1,1.
   std::optional<std::pair<std::size_t, std::size_t>> cell;
   std::optional<glm::dvec2> pixel;

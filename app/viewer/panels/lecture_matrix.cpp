@@ -81,6 +81,11 @@ std::string cellText(const Viewer& viewer, const std::vector<double>& values, co
   return text;
 }
 
+void markGroups(Teaching& teaching, const MatrixCell& cell) {
+  teaching.markGroup(static_cast<std::uint32_t>(cell.second), true);
+  teaching.markGroup(static_cast<std::uint32_t>(cell.first), false);
+}
+
 /// The one that an action has chosen, where the matrix has it.
 std::optional<MatrixCell> chosenCell(const Teaching& teaching) {
   const std::size_t n = teaching.insight()->matrix->size();
@@ -117,9 +122,9 @@ void heatMap(Viewer& viewer, const char* id, const std::vector<double>& values, 
   const auto [i, j] = *cell;
   list.AddRect({edge(at.x, j) - 1, edge(at.y, i) - 1}, {edge(at.x, j + 1) + 1, edge(at.y, i + 1) + 1},
                IM_COL32(255, 255, 255, 255));
-  if (hovered) tooltip(cellText(viewer, values, name, *cell));
-  viewer.teaching().markGroup(static_cast<std::uint32_t>(j), true);
-  viewer.teaching().markGroup(static_cast<std::uint32_t>(i), false);
+  if (!hovered) return;
+  tooltip(cellText(viewer, values, name, *cell));
+  markGroups(viewer.teaching(), *cell);
 }
 
 void legend(double most, float width) {
@@ -382,8 +387,10 @@ void matrixPage(Viewer& viewer) {
   const std::vector<double>& other = choices.sums ? series.sum(choices.power) : series.power(choices.power);
   const std::string name = termText(choices.power, choices.sums);
   map(viewer, "##other", other, name, side);
-  if (const std::optional<MatrixCell> cell = chosenCell(teaching))
+  if (const std::optional<MatrixCell> cell = chosenCell(teaching)) {
     wrapped(cellText(viewer, other, name, *cell));
+    markGroups(teaching, *cell);
+  }
   radiusLine(viewer);
   terms(viewer);
   lightLine(viewer);
