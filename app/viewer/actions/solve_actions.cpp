@@ -41,7 +41,7 @@ std::span<const Action> solveActions() {
        [](const std::string& a) { return a.empty() ? std::string() : checkWhole<1, 100>(a); }},
       {"browse",
        "[FOLDER]",
-       "Choose a file from a list: a scene, a saved solve of it, a picture or solution to compare with",
+       "Choose a file from a list, to open or to compare with",
        {GLFW_KEY_O, true, "Ctrl+O"},
        [](Viewer& v, const std::string& a) { v.browse(a); }},
       {"reload",

@@ -112,15 +112,15 @@ void lightChoices(Viewer& viewer) {
       "K: the light as it is shown now. The display \"Difference\" then shows how what is shown differs from "
       "it");
   ImGui::SameLine();
-  const auto& reference = settings.view.reference;
-  ImGui::BeginDisabled(!reference);
-  if (ImGui::Button("Forget")) viewer.perform("forget");
-  tooltip(reference ? "Compared with " + reference->name : "Compared with direct light alone");
-  ImGui::EndDisabled();
-  ImGui::SameLine();
-  if (ImGui::Button("File \u2026##reference")) viewer.perform("browse");
-  tooltip(
-      "Ctrl+O: chooses a solution that unshot solve wrote (PLY) to compare with. Or drop one on the window");
+  if (const auto reference = settings.view.reference) {  // by value: Forget drops it
+    if (ImGui::Button("Forget")) viewer.perform("forget");
+    tooltip("Compared with " + reference->name);
+  } else {
+    if (ImGui::Button("File \u2026##reference")) viewer.perform("browse");
+    tooltip(
+        "Compared with direct light alone. Ctrl+O: chooses a solution that unshot solve wrote (PLY). Or drop "
+        "one on the window");
+  }
   bool on = settings.view.light.indirect;
   if (ImGui::Checkbox("Radiosity", &on)) viewer.perform("radiosity", on ? "on" : "off");
   tooltip(

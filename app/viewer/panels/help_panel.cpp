@@ -35,17 +35,15 @@ std::string flightKeys(const Viewer& viewer) {
 }
 
 std::vector<HelpGroup> helpGroups(const Viewer& viewer) {
-  std::vector<HelpGroup> groups{
-      {"Mouse and flight",
-       {{"Click", "What is there: light, element, plan"},
-        {"Left drag", "Orbit around the point looked at"},
-        {"Right drag", "Look around"},
-        {"Middle drag", "Move sideways and up; also Shift+left drag"},
-        {"Wheel", "To what is under the mouse, and away from it"},
-        {flightKeys(viewer), "Fly; down and up. Shift: faster"},
-        {"Right, wheel", "Speed of flight"},
-        {"Drop a file",
-         "Open an OBJ scene, go on from a saved solve, compare with a picture or a solution"}}}};
+  std::vector<HelpGroup> groups{{"Mouse and flight",
+                                 {{"Click", "What is there: light, element, plan"},
+                                  {"Left drag", "Orbit around the point looked at"},
+                                  {"Right drag", "Look around"},
+                                  {"Middle drag", "Move sideways and up; also Shift+left drag"},
+                                  {"Wheel", "To what is under the mouse, and away from it"},
+                                  {flightKeys(viewer), "Fly; down and up. Shift: faster"},
+                                  {"Right, wheel", "Speed of flight"},
+                                  {"Drop a file", "Open it, or compare with it"}}}};
   for (const ActionGroup& group : actionGroups()) {
     HelpGroup help{std::string(group.title), {}};
     for (const Action& action : group.actions) {
