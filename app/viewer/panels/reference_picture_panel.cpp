@@ -79,6 +79,7 @@ void figure(const ReferencePicture& picture, bool difference, LowerEdge& edge) {
   const float left = width - content - 2 * ImGui::GetStyle().WindowPadding.x - 2 * gap;
   const float bottom = edge.above(left, width);
   ImGui::SetNextWindowPos({width - gap, bottom - gap}, ImGuiCond_Always, {1, 1});
+  ImGui::SetNextWindowContentSize({content, 0});  // of this frame: by itself it follows one frame later
   ImGui::SetNextWindowBgAlpha(0.85f);
   ImGui::Begin("reference picture", nullptr, kOver | ImGuiWindowFlags_AlwaysAutoResize);
   if (difference) differenceScale("Unshot \u2212 " + picture.name(), "of white", width);
