@@ -61,7 +61,8 @@ bool Viewer::screenshotStands() const {
   if (!screenshots_.posing() || !screenshots_.panelsStand()) return false;
   const SceneSplit split = splitScene(scene_width_, scene_.racing());
   const bool no_room = split.left <= 0 || (scene_.racing() && split.right <= 0) || scene_height_ <= 0;
-  return !sceneStands() || no_room || (screenshots_.lit() && !scene_.outdated(wanted()) && !scene_.gliding());
+  return !sceneStands() || no_room ||
+         (screenshots_.lit() && !scene_.outdated(wanted()) && !scene_.waits(wanted()) && !scene_.gliding());
 }
 
 void Viewer::keepScreenshot(int width, int height) {

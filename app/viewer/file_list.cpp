@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <tuple>
 
 #include "base/error.h"
+#include "viewer/file_kinds.h"
 
 namespace unshot {
 namespace {
@@ -11,8 +13,6 @@ namespace {
 namespace fs = std::filesystem;
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-bool isScene(const fs::path& path) { return lowered(path.extension().string()) == ".obj"; }
 
 /// "~" is the home of whoever sits there.
 fs::path typedPath(const std::string& text) {
@@ -38,16 +38,16 @@ void FileList::open(const fs::path& folder) {
     const std::string name = at->path().filename().string();
     std::error_code unknown;
     const bool is_folder = at->is_directory(unknown);
-    if (name.starts_with('.') || (!is_folder && !isScene(name))) continue;
+    if (name.starts_with('.') || (!is_folder && !isTaken(name))) continue;
     found.push_back({name, is_folder});
   }
   if (error || wanted.empty())
     throw Error(ErrorKind::kInput, "this folder cannot be read: " + error.message(), wanted.string(),
                 "another folder");
-  std::sort(found.begin(), found.end(), [](const Entry& a, const Entry& b) {
-    return a.folder != b.folder ? a.folder
-                                : std::pair(lowered(a.name), a.name) < std::pair(lowered(b.name), b.name);
-  });
+  const auto place = [](const Entry& e) {
+    return std::tuple(!e.folder, !e.folder && !isScene(e.name), lowered(e.name), e.name);
+  };
+  std::sort(found.begin(), found.end(), [&](const Entry& a, const Entry& b) { return place(a) < place(b); });
   if (wanted.has_relative_path()) found.insert(found.begin(), {"..", true});
   folder_ = wanted;
   entries_ = std::move(found);

@@ -1,4 +1,5 @@
-// What a folder holds, for choosing a scene: folders and OBJ files, and what of them goes with a text.
+// What a folder holds, for choosing a file: folders and what the viewer takes, and what of them goes with a
+// text.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +22,8 @@ class FileList {
   /// The folder as it is now. Throws Error (kInput) where it cannot be read, and stays where it was.
   void open(const std::filesystem::path& folder);
   const std::filesystem::path& folder() const { return folder_; }
-  /// The folder above, folders, then scenes, by name; hidden ones are left out.
+  /// The folder above, folders, scenes, then other files that an action takes (file_kinds.h), each by name;
+  /// hidden ones are left out.
   const std::vector<Entry>& entries() const { return entries_; }
 
   /// Follows a typed path: into the folder that stands before the last slash, where there is one. Returns

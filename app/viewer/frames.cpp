@@ -64,8 +64,9 @@ double Viewer::nextFrame(double now) const {
 double Viewer::nextPaint() const {
   const bool poses = screenshots_.posing() && (!screenshots_.panelsStand() || screenshotStands());
   if (gui_frames_ == 0 && !poses && !navigator_.moving()) {
-    const bool waits =
-        waitsForFiles() || scene_.framing() || state_->saving || teaching_->preparing().has_value();
+    const bool waits = waitsForFiles() || looksForView() || scene_.waitingSince() || state_->saving ||
+                       state_->editing || state_->phase == SessionPhase::kLoading ||
+                       teaching_->preparing().has_value();
     return std::min(waits ? last_frame_ + kProgressSeconds : kNever, nextMeasure());
   }
   const double soon = last_frame_ + kFrameSeconds;
@@ -82,8 +83,7 @@ double Viewer::nextSceneWork() const {
     return last_scene_work_;
   if (screenshots_.posing() && !screenshots_.lit()) return last_scene_work_;
   const double soon = last_scene_work_ + kFrameSeconds;
-  if ((sceneStands() && scene_.gliding()) || (frame_wanted_ && state_->snapshot && !snapshotRefused()))
-    return soon;
+  if ((sceneStands() && scene_.gliding()) || looksForView()) return soon;
   if (hasNewSnapshot()) return nextSnapshot();
   return mayBeSharpened(kNever) ? std::max(soon, last_motion_ + kRestSeconds) : kNever;
 }
@@ -222,7 +222,8 @@ bool Viewer::draw(GLuint framebuffer, int width, int height) {
     buildLecture(*this, scene_width_, beside.lecture);
     buildHemicube(*this, edge);
   }
-  buildOverlays(*this, edge, covered, !stands, scene_.framing() || frame_wanted_);
+  const bool looks = looksForView() && now >= view_wanted_at_ + Task::kMoment;
+  buildOverlays(*this, edge, covered, !stands, looks);
   ImGui::Render();
 
   if (renderer().hardware) {

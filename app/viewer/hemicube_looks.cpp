@@ -26,7 +26,7 @@ struct HemicubeEye::Parts {
       : rays(mesh, cancel),
         elements(mesh),
         delta(std::make_shared<const std::vector<double>>(deltaFormFactors(kLayout))),
-        colours(std::make_shared<const std::vector<std::uint8_t>>(patchColours(mesh))) {}
+        colours(std::make_shared<const std::vector<std::uint8_t>>(patchColours(mesh, cancel))) {}
   HemicubeRays rays;
   ItemElements elements;
   std::shared_ptr<const std::vector<double>> delta;

@@ -18,6 +18,7 @@ void MaterialEdits::begin(Materials materials) {
   now_ = opened_ = std::move(materials);
   before_.clear();
   after_.clear();
+  saved_.clear();
   gesture_.reset();
   last_emission_.clear();
   for (const Material& m : now_) last_emission_.push_back(m.emission);

@@ -20,6 +20,10 @@ class MaterialEdits {
   /// As they are meant to be.
   const Materials& materials() const { return now_; }
   bool edited() const { return now_ != opened_; }
+  /// They are in a file as they are now.
+  void noteSaved() { saved_ = now_; }
+  /// Whether what was made of them is nowhere else.
+  bool unsaved() const { return edited() && now_ != saved_; }
   bool canUndo() const { return !before_.empty(); }
   bool canRedo() const { return !after_.empty(); }
   /// Index of the material of this name. Throws a usage Error that lists them.
@@ -41,7 +45,7 @@ class MaterialEdits {
   void remember(std::optional<double> gesture);
   glm::dvec3 usualEmission(std::size_t material) const;
 
-  Materials opened_, now_;
+  Materials opened_, now_, saved_;
   std::vector<Materials> before_, after_;
   std::vector<glm::dvec3> last_emission_;  // one per material; 0: it had none so far
   std::optional<double> gesture_;          // of the last edit

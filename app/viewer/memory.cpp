@@ -108,7 +108,8 @@ void Memory::put(const RememberedLines& lines, const std::string& key,
   } catch (const std::filesystem::filesystem_error& error) {
     wrong = error.what();
   }
-  std::cerr << "unshot: cameras and settings are not remembered: " << wrong << std::endl;
+  complaint_ = "cameras and settings are not remembered: " + wrong;
+  std::cerr << "unshot: " << complaint_ << std::endl;
   folder_.clear();
 }
 

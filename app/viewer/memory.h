@@ -30,7 +30,8 @@ class RememberedLines {
   std::size_t most_;
 };
 
-/// What cannot be written is said once on the terminal, and then nothing more is remembered.
+/// What cannot be written is said once on the terminal and by takeComplaint(), and then nothing more is
+/// remembered.
 class Memory {
  public:
   /// In this folder, which is made when there is something to keep; empty: remembers nothing.
@@ -40,6 +41,8 @@ class Memory {
   static std::filesystem::path usualFolder();
 
   bool on() const { return !folder_.empty(); }
+  /// Why nothing more is remembered, for the window, once; empty: nothing to say.
+  std::string takeComplaint() { return std::exchange(complaint_, {}); }
 
   /// In the coordinates of the scene's file; kept for the hundred scenes looked at last.
   std::optional<Camera> camera(const std::filesystem::path& scene) const;
@@ -56,6 +59,7 @@ class Memory {
   void put(const RememberedLines& lines, const std::string& key, const std::optional<std::string>& value);
 
   std::filesystem::path folder_;
+  std::string complaint_;
   RememberedLines cameras_, scenes_, settings_;
 };
 

@@ -34,7 +34,25 @@ void Messages::addError(const Error& error, bool of_solve, double now) {
   if (!known) waiting_.emplace_back(error, of_solve);
 }
 
+void Messages::read(const std::string& text) {
+  for (Logged& one : log_) one.read = one.read || one.text == text;
+}
+
+void Messages::readAll() {
+  for (Logged& one : log_) one.read = true;
+}
+
+std::size_t Messages::unread() const {
+  return static_cast<std::size_t>(
+      std::count_if(log_.begin(), log_.end(), [](const Logged& one) { return !one.read; }));
+}
+
 void Messages::dismissError() {
+  if (shown_) read(shown_->fullText());
+  showNextError();
+}
+
+void Messages::showNextError() {
   shown_.reset();
   if (waiting_.empty()) return;
   shown_ = waiting_.front().first;
@@ -44,17 +62,19 @@ void Messages::dismissError() {
 
 void Messages::forgetErrorsOfSolve() {
   std::erase_if(waiting_, [](const auto& error) { return error.second; });
-  if (shown_ && shown_of_solve_) dismissError();
+  if (shown_ && shown_of_solve_) showNextError();
 }
 
 void Messages::addPassing(std::string text, double now) {
   note(text, false, now);
+  log_.back().read = true;
   passing_ = std::move(text);
   passing_until_ = now + kPassingSeconds;
 }
 
 void Messages::add(std::string text, double now) {
   note(text, false, now);
+  std::erase_if(lasting_, [&](const Lasting& notice) { return notice.text == text; });
   lasting_.push_back({std::move(text), kReadSeconds});
 }
 
@@ -76,6 +96,7 @@ double Messages::nextExpiry() const {
 
 bool Messages::dismissNotices() {
   const bool any = !lasting_.empty();
+  for (const Lasting& notice : lasting_) read(notice.text);
   lasting_.clear();
   return any;
 }

@@ -1,5 +1,5 @@
 // What the viewer has to say: errors, one after the other until each is dismissed; notices over the scene,
-// some for a moment and some until they were read; and a log of all of it.
+// some for a moment and some until they were read; and a log of all of it, which knows what nobody has read.
 #pragma once
 
 #include <deque>
@@ -19,6 +19,7 @@ class Messages {
     double time;
     std::string text;
     bool error;
+    bool read = false;  ///< dismissed, or seen in the list of all of them; lines for a moment need not be
   };
 
   /// `of_solve`: about the scene or its solve, of no more interest once another one is there. The same once
@@ -31,9 +32,11 @@ class Messages {
   void dismissError();
   void forgetErrorsOfSolve();
 
-  /// A line for a moment, such as what a key has chosen; instead of the one before.
+  /// A line for a moment, which only echoes a key or a button, such as what it has chosen; instead of the one
+  /// before.
   void addPassing(std::string text, double now);
-  /// A line that stays until it is dismissed, or the user goes on working for a while.
+  /// A line that stays until it is dismissed, or the user goes on working for a while; the same once more, in
+  /// the place of the one before.
   void add(std::string text, double now);
   /// Something was typed, or moved with the mouse: takes some of the time of lines that stay. Returns whether
   /// one has gone.
@@ -53,6 +56,10 @@ class Messages {
   bool stays() const { return !lasting_.empty(); }
   /// The newest last.
   const std::deque<Logged>& log() const { return log_; }
+  /// How many of them nobody has read.
+  std::size_t unread() const;
+  /// The list of all of them is seen.
+  void readAll();
 
  private:
   struct Lasting {
@@ -61,6 +68,8 @@ class Messages {
   };
 
   void note(std::string text, bool error, double now);
+  void read(const std::string& text);
+  void showNextError();
 
   std::optional<Error> shown_;
   bool shown_of_solve_ = false;

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 
+#include "base/clock.h"
 #include "session/pick.h"
 #include "viewer/viewer.h"
 
@@ -42,7 +43,7 @@ void Viewer::navigate(double seconds) {
     }
   }
   glm::dvec3 direction(0.0);
-  if (!io.WantTextInput && !io.KeyCtrl) {
+  if (!io.WantTextInput && !io.KeyCtrl && !io.KeyAlt && !io.KeySuper) {
     const auto axis = [&](int plus, int minus) {
       return (io.KeysDown[plus] ? 1.0 : 0.0) - (io.KeysDown[minus] ? 1.0 : 0.0);
     };
@@ -91,9 +92,12 @@ void Viewer::followFrame(const SessionState& before) {
   navigator_.reset(moved(navigator_.camera()), boundsOf(mesh));
 }
 
-void Viewer::frameScene() {
+void Viewer::frameScene() { wantFrame(false); }
+
+void Viewer::wantFrame(bool from_memory) {
   frame_wanted_ = true;
-  camera_from_memory_ = false;
+  camera_from_memory_ = from_memory;
+  view_wanted_at_ = wallSeconds();
 }
 
 void Viewer::followShape(int width, int height, double now) {
@@ -162,8 +166,9 @@ void Viewer::copyCamera(bool options) {
   requiredMesh();
   const Camera camera = *cameraInFile();
   ImGui::SetClipboardText((options ? cameraOptions(camera) : cameraLines(camera)).c_str());
-  // There are no options for it.
-  passingNotice(options && camera.orthographic ? "copied; unshot solve draws in perspective" : "copied");
+  if (options && camera.orthographic)
+    return notice("copied; unshot solve has no options for orthographic cameras");
+  passingNotice("copied");
 }
 
 }  // namespace unshot

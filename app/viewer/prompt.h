@@ -1,4 +1,4 @@
-// A line to type in over the scene, with a list below it: of all actions, or of a folder's scenes.
+// A line to type in over the scene, with a list below it: of all actions, or of a folder's files.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace unshot {
 
-enum class PromptKind { kClosed, kActions, kScenes };
+enum class PromptKind { kClosed, kActions, kFiles };
 
 struct Prompt {
   PromptKind kind = PromptKind::kClosed;

@@ -49,7 +49,7 @@ void Viewer::sendReferencePicture(double deadline) {
   }
   if (coming_picture_->uploaded() < 1) return;
   reference_picture_ = std::exchange(coming_picture_, nullptr);
-  passingNotice("compared with " + reference_picture_->name());
+  notice("compared with " + reference_picture_->name());
 }
 
 /// Takes what is read.
@@ -59,7 +59,7 @@ void Viewer::followLoads() {
       // Where the mesh is another by now, it is wanted of that one.
       if ((*light)->mesh->cut != requiredMesh().cut) return loadReference(reference_load_.file());
       ui_.settings.view.reference = *light;
-      passingNotice("compared with " + (*light)->name);
+      notice("compared with " + (*light)->name);
     }
     if (auto content = picture_load_.take()) {
       coming_picture_ = std::make_shared<ReferencePicture>(*setup_.display, std::move(*content));

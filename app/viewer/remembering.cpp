@@ -137,7 +137,7 @@ void Viewer::browse(const std::filesystem::path& folder) {
   } else {
     files.open(state_->facts ? state_->facts->scene_path.parent_path() : std::filesystem::path());
   }
-  ui_.prompt.begin(PromptKind::kScenes, "");
+  ui_.prompt.begin(PromptKind::kFiles, "");
 }
 
 void Viewer::reload() {

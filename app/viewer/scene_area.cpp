@@ -34,7 +34,7 @@ void SceneArea::setSnapshots(std::shared_ptr<const Snapshot> first, std::shared_
     changes_ += 1 + (second_ ? second_->version() : 0);
     second_.reset();
     second_due_ = false;
-    if (rival) second_.emplace(context_);
+    if (rival) second_.emplace(context_, wake_);
   }
   if (second_) second_->setSnapshot(std::move(rival));
 }
@@ -61,6 +61,20 @@ SceneDisplay::Wanted SceneArea::secondOf(const Wanted& wanted) const {
 
 bool SceneArea::outdated(const Wanted& wanted) const {
   return first_.outdated(firstOf(wanted)) || (second_ && second_->outdated(secondOf(wanted)));
+}
+
+bool SceneArea::waits(const Wanted& wanted) const {
+  return first_.waits(firstOf(wanted)) || (second_ && second_->waits(secondOf(wanted)));
+}
+
+std::optional<double> SceneArea::waitingSince() const {
+  const std::optional<double> first = first_.waitingSince();
+  return first || !second_ ? first : second_->waitingSince();
+}
+
+void SceneArea::giveUpWaiting() {
+  first_.giveUpWaiting();
+  if (second_) second_->giveUpWaiting();
 }
 
 bool SceneArea::draw(const Wanted& wanted, double seconds, double deadline) {

@@ -3,8 +3,11 @@
 // of SceneDisplay.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "viewer/scene_display.h"
 
@@ -20,7 +23,8 @@ SceneSplit splitScene(int width, bool race);
 /// All calls on the thread where the context is current.
 class SceneArea {
  public:
-  explicit SceneArea(gl::Context& context) : context_(context), first_(context) {}
+  SceneArea(gl::Context& context, std::function<void()> wake)
+      : context_(context), wake_(std::move(wake)), first_(context, wake_) {}
 
   /// `rival` null: no race.
   void setSnapshots(std::shared_ptr<const Snapshot> first, std::shared_ptr<const Snapshot> rival);
@@ -34,7 +38,6 @@ class SceneArea {
 
   void startFraming(double aspect) { first_.startFraming(aspect); }
   bool framing() const { return first_.framing(); }
-  double framingBegan() const { return first_.framingBegan(); }
   double framingDone() const { return first_.framingDone(); }
   void hurryFraming() { first_.hurryFraming(); }
   std::optional<Camera> continueFraming(std::optional<double> seconds) {
@@ -46,6 +49,10 @@ class SceneArea {
   using Wanted = SceneDisplay::Wanted;
   bool draw(const Wanted& wanted, double seconds, double deadline);
   bool outdated(const Wanted& wanted) const;
+  bool waits(const Wanted& wanted) const;
+  std::optional<double> waitingSince() const;
+  void giveUpWaiting();
+  const std::string& shownDisplay() const { return first_.shownDisplay(); }
   bool drawing() const { return first_.drawing() || second_due_; }
   bool drawnAnew() const { return first_.drawnAnew() || (second_ && second_->drawnAnew()); }
   const Camera& shownCamera() const { return first_.shownCamera(); }
@@ -72,6 +79,7 @@ class SceneArea {
   Wanted secondOf(const Wanted& wanted) const;
 
   gl::Context& context_;
+  std::function<void()> wake_;
   SceneDisplay first_;
   std::optional<SceneDisplay> second_;  // in a race
   // After a picture of the first comes the one of the second, from the same camera, before the next of the

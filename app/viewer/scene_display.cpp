@@ -18,6 +18,7 @@ constexpr std::size_t kFewestPieces = 10'000;
 constexpr std::size_t kFewestFinePieces = 2'000;  // of pictures with many samples a pixel
 constexpr double kBandSamples = 1e6;              // of such a picture at a time; 20 bytes each
 constexpr std::size_t kFewestRows = 64;
+constexpr std::size_t kMarkedAtOnce = 20'000;  // triangles, whose marks take some milliseconds to find
 constexpr std::size_t kFewestBytes = 1 << 20;
 
 bool sameSamples(const SceneDisplay::Wanted& a, const SceneDisplay::Wanted& b) {
@@ -35,8 +36,9 @@ ViewOptions viewOf(const SceneDisplay::Wanted& wanted) {
 
 }  // namespace
 
-SceneDisplay::SceneDisplay(gl::Context& context)
+SceneDisplay::SceneDisplay(gl::Context& context, std::function<void()> wake)
     : context_(context),
+      wake_(std::move(wake)),
       view_(context),
       shown_{gl::Texture(context), gl::Framebuffer(context)},
       next_{gl::Texture(context), gl::Framebuffer(context)} {}
@@ -52,7 +54,6 @@ void SceneDisplay::setSnapshot(std::shared_ptr<const Snapshot> snapshot) {
 
 void SceneDisplay::startFraming(double aspect) {
   framing_.reset();
-  framing_began_ = wallSeconds();
   framing_hurries_ = false;
   AutomaticCameraOptions options;
   options.aspect = aspect;
@@ -78,6 +79,33 @@ bool SceneDisplay::differs(const Wanted& wanted) const {
          drawn_->settings.exposure_locked != wanted.settings.exposure_locked ||
          drawn_->settings.histogram != wanted.settings.histogram ||
          drawn_->settings.view.automatic_exposure != wanted.settings.view.automatic_exposure;
+}
+
+bool SceneDisplay::waits(const Wanted& wanted) const {
+  return marks_ && snapshot_ && marks_->display == wanted.settings.view.display &&
+         marks_->cut == snapshot_->mesh->cut && !marks_->job->ready();
+}
+
+std::optional<double> SceneDisplay::waitingSince() const {
+  return marks_ ? std::optional(marks_->began) : std::nullopt;
+}
+
+/// Whether a picture can be drawn without finding marks of a large mesh first; else that is begun or goes on.
+bool SceneDisplay::marksStand(const Wanted& wanted) {
+  if (!snapshot_) return true;
+  const std::string& display = wanted.settings.view.display;
+  const std::shared_ptr<const Mesh>& mesh = snapshot_->mesh;
+  if (marks_ && (marks_->display != display || marks_->cut != mesh->cut)) marks_.reset();
+  if (!view_.lacksMarks(displayMode(display)) || mesh->triangle_element.size() <= kMarkedAtOnce) return true;
+  if (!marks_) {
+    const auto find = [mesh, &mode = displayMode(display)](const CancelToken& cancel) {
+      return findMeshMarks(*mesh, mode, cancel);
+    };
+    marks_ = {mesh->cut, display, wallSeconds(), std::make_unique<Background<MeshMarks>>(find, wake_)};
+  }
+  if (!marks_->job->ready()) return false;
+  view_.beginMarks(std::exchange(marks_, std::nullopt)->job->take());
+  return true;
 }
 
 bool SceneDisplay::sampled(const Wanted& wanted) const { return sampled_ && sameSamples(*sampled_, wanted); }
@@ -112,6 +140,12 @@ bool SceneDisplay::draw(const Wanted& wanted, double seconds, double deadline) {
                   making_->wanted.height != wanted.height)) {
     making_.reset();
   }
+  if (!making_ && !marksStand(wanted)) {  // the picture before stays until they are found
+    if (view_.uploadBytes() == 0) return false;
+    const StateGuard guard(context_.functions());
+    upload(deadline);
+    return true;
+  }
   if (!outdated(wanted) && !gliding_) {
     glide_seconds_ = 0;
     return false;
@@ -128,6 +162,7 @@ bool SceneDisplay::draw(const Wanted& wanted, double seconds, double deadline) {
   ++version_;
   drawn_ = making_->wanted;
   shown_camera_ = drawn_->camera;
+  shown_display_ = drawn_->settings.view.display;
   making_.reset();
   bands_.next = 0;
   bands_.piece = 0;

@@ -18,6 +18,7 @@
 #include "render/histogram.h"
 #include "render/scene_view.h"
 #include "session/snapshot.h"
+#include "viewer/background.h"
 #include "viewer/pace.h"
 
 namespace unshot {
@@ -34,7 +35,9 @@ struct DisplaySettings {
 /// All calls on the thread where the context is current.
 class SceneDisplay {
  public:
-  explicit SceneDisplay(gl::Context& context);
+  /// `wake` (may be empty) is called, on any thread, once draw() can go on that has waited for marks of the
+  /// mesh.
+  explicit SceneDisplay(gl::Context& context, std::function<void()> wake = nullptr);
 
   /// From now on pictures are of this one, which draw() uploads first. Null: nothing to show.
   void setSnapshot(std::shared_ptr<const Snapshot> snapshot);
@@ -44,8 +47,7 @@ class SceneDisplay {
   /// Starts looking for a good camera for the present snapshot.
   void startFraming(double aspect);
   bool framing() const { return framing_.has_value(); }
-  /// Since when [wallSeconds()], and how much of it is done, from 0 to 1.
-  double framingBegan() const { return framing_began_; }
+  /// How much of it is done, from 0 to 1.
   double framingDone() const { return framing_ ? framing_->done() : 1; }
   /// The next continueFraming() returns the best of what was found so far.
   void hurryFraming() { framing_hurries_ = true; }
@@ -67,7 +69,16 @@ class SceneDisplay {
   /// glide of the exposure (negative: no glide). Returns whether there was anything to do.
   bool draw(const Wanted& wanted, double seconds, double deadline);
   /// Whether draw() would have something to do, not counting a glide of the exposure.
-  bool outdated(const Wanted& wanted) const { return drawing() || differs(wanted); }
+  bool outdated(const Wanted& wanted) const { return drawing() || (differs(wanted) && !waits(wanted)); }
+  /// Whether it waits for what shows the mesh itself (mesh_marks.h), which is found beside the window where
+  /// the mesh is large. The picture before stays meanwhile.
+  bool waits(const Wanted& wanted) const;
+  /// Since when [wallSeconds()] something is waited for; none where nothing is.
+  std::optional<double> waitingSince() const;
+  /// No longer waits for it. It is looked for again when a picture is wanted that shows it.
+  void giveUpWaiting() { marks_.reset(); }
+  /// Key of the display mode of the picture shown; empty before the first.
+  const std::string& shownDisplay() const { return shown_display_; }
   /// Whether a picture, or the upload for it, was begun and the picture is not yet shown.
   bool drawing() const { return making_ || view_.uploadBytes() > 0; }
   /// Whether the picture shown was drawn for itself, not only exposed anew.
@@ -140,6 +151,7 @@ class SceneDisplay {
   };
 
   bool differs(const Wanted& wanted) const;
+  bool marksStand(const Wanted& wanted);
   bool sampled(const Wanted& wanted) const;
   void begin(const Wanted& wanted);
   double extended(double deadline);
@@ -155,11 +167,20 @@ class SceneDisplay {
   void allocate(Picture& picture, int width, int height);
   double nextExposure(double metered, double seconds);
 
+  /// Marks of the mesh that are being found.
+  struct MarksSearch {
+    std::uint64_t cut;    ///< Mesh::cut
+    std::string display;  ///< key of the mode that shows them
+    double began;
+    std::unique_ptr<Background<MeshMarks>> job;
+  };
+
   gl::Context& context_;
+  std::function<void()> wake_;
   SceneView view_;
   std::shared_ptr<const Snapshot> snapshot_;
+  std::optional<MarksSearch> marks_;
   std::optional<CameraSearch> framing_;
-  double framing_began_ = 0;
   bool framing_hurries_ = false;
   Picture shown_, next_;
   std::optional<Making> making_;
@@ -169,6 +190,7 @@ class SceneDisplay {
   std::optional<double> metered_;                // of samples_
   std::optional<LuminanceHistogram> histogram_;  // of the picture shown
   Camera shown_camera_;
+  std::string shown_display_;
   bool drawn_anew_ = false;
   std::uint64_t version_ = 0;
   Pace bytes_, pieces_, rows_;

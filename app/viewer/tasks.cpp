@@ -1,6 +1,9 @@
 // What of the viewer's doing takes its time, and giving it up.
 #include "viewer/tasks.h"
 
+#include <algorithm>
+
+#include "base/clock.h"
 #include "viewer/teaching.h"
 #include "viewer/viewer.h"
 
@@ -20,11 +23,16 @@ Task taskOf(FileLoad<Result>& load) {
 std::vector<Task> Viewer::tasks() {
   std::vector<Task> out;
   if (state_->phase == SessionPhase::kLoading)
-    out.push_back(
-        {state_->task, state_->task_done, "the scene before stays", [this] { giveUpLoading(); }, 0});
+    out.push_back({state_->task, state_->task_done, "the scene before stays", [this] { giveUpLoading(); },
+                   state_->loading_began});
   if (scene_.framing())
     out.push_back({"looking for a good view", scene_.framingDone(), "the best view so far",
-                   [this] { scene_.hurryFraming(); }, scene_.framingBegan()});
+                   [this] { scene_.hurryFraming(); }, view_wanted_at_});
+  if (const auto since = scene_.waitingSince()) {
+    const bool edges = displayMode(ui_.settings.view.display).edges;
+    out.push_back({edges ? "finding edges" : "colouring patches", std::nullopt, "the display before stays",
+                   [this] { giveUpDisplay(); }, *since});
+  }
   if (const auto since = screenshots_.began()) {
     const auto give_up = [this] {
       screenshots_.giveUp();
@@ -42,6 +50,9 @@ std::vector<Task> Viewer::tasks() {
     task.giveUp = [this] { giveUpReferencePicture(); };
     out.push_back(task);
   }
+  if (state_->editing)
+    out.push_back({state_->task, state_->task_done, "the materials before stay",
+                   [this] { session_.giveUpLoading(); }, state_->task_began});
   if (state_->saving)
     out.push_back({state_->task, state_->task_done, "a file that is there stays as it was",
                    [this] { session_.giveUpSaving(); }, state_->task_began});
@@ -58,18 +69,34 @@ std::vector<Task> Viewer::tasks() {
   return out;
 }
 
-bool Viewer::giveUp(bool shown) {
-  std::vector<Task> all = tasks();
-  if (shown) std::erase_if(all, [](const Task& task) { return !task.shown(wallSeconds()); });
-  if (all.empty()) return false;
-  giveUp(all.front());
+/// Back to the one that is shown, where that needs nothing to be found.
+void Viewer::giveUpDisplay() {
+  std::string& display = ui_.settings.view.display;
+  const std::string& before = scene_.shownDisplay();
+  display = before.empty() || before == display ? "radiosity" : before;
+  scene_.giveUpWaiting();
+}
+
+bool Viewer::giveUp(std::size_t number) {
+  const std::vector<Task> all = tasks();
+  if (number >= all.size()) return false;
+  giveUp(all[number]);
+  return true;
+}
+
+bool Viewer::giveUpShown() {
+  const std::vector<Task> all = tasks();
+  const auto shown =
+      std::find_if(all.begin(), all.end(), [](const Task& task) { return task.shown(wallSeconds()); });
+  if (shown == all.end()) return false;
+  giveUp(*shown);
   return true;
 }
 
 void Viewer::giveUp(const Task& task) {
   const std::string text = task.text;
   task.giveUp();
-  passingNotice("given up: " + text);
+  notice("given up: " + text);
 }
 
 }  // namespace unshot

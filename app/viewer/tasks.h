@@ -12,9 +12,10 @@ struct Task {
   std::optional<double> done;  ///< from 0 to 1; none where it is not known
   const char* given_up;        ///< what becomes of it then, for a tooltip
   std::function<void()> giveUp;
-  double since = 0;  ///< wallSeconds()
-  /// What takes no longer than a moment is not shown.
-  bool shown(double now) const { return now >= since + 0.3; }
+  double since = 0;                       ///< wallSeconds()
+  static constexpr double kMoment = 0.3;  // [s]
+  /// Whether it has taken longer than a moment by now: before, it would only flash.
+  bool shown(double now) const { return now >= since + kMoment; }
 };
 
 }  // namespace unshot

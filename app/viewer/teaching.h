@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,6 +42,10 @@ struct TeachingChoices {
   bool allow_divergence = false;
   bool alike = false;
   double factor = 1, reflectance = 1;
+  /// What is marked besides what the mouse is over: row and column of the matrix, from 0 on; a place in the
+  /// cross of the hemicube, from 0,0 (left, top) to 1,1.
+  std::optional<std::pair<std::size_t, std::size_t>> cell;
+  std::optional<glm::dvec2> pixel;
 };
 
 /// All calls on the main thread, with the context current.

@@ -12,7 +12,7 @@
 #include "export/materials.h"
 #include "viewer/actions/actions.h"
 #include "viewer/comparison.h"
-#include "viewer/file_list.h"
+#include "viewer/file_kinds.h"
 #include "viewer/panels/panels.h"
 #include "viewer/panels/theme.h"
 #include "viewer/teaching.h"
@@ -37,7 +37,7 @@ Viewer::GuiContext::~GuiContext() { ImGui::DestroyContext(); }
 Viewer::Viewer(ViewerSetup setup)
     : setup_(std::move(setup)),
       gui_(*setup_.display),
-      scene_(*setup_.display),
+      scene_(*setup_.display, setup_.session.wake),
       screenshots_(*setup_.display, gui_, setup_.session.wake),
       session_(setup_.session),
       state_(session_.latest()),
@@ -98,6 +98,7 @@ void Viewer::update(double now) {
   followHint(now);
   keepMovedCamera(now);
   fitToShape(now);
+  if (const std::string lost = memory_.takeComplaint(); !lost.empty()) notice(lost);
   if (notice_.expire(now)) input();
 }
 
@@ -109,6 +110,8 @@ void Viewer::takeState(double now) {
     gui_frames_ = std::max(gui_frames_, 2);  // its window takes its size in the second
   const bool news = latest->phase != state_->phase || latest->problems != state_->problems;
   const bool another = latest->epoch != state_->epoch;
+  if (another && opening_ && latest->snapshot && latest->snapshot->mesh->materials != edits_.materials())
+    keepEdits();
   const std::shared_ptr<const SessionState> before = std::exchange(state_, latest);
   if (another) {
     rate_points_.clear();
@@ -119,7 +122,7 @@ void Viewer::takeState(double now) {
     if (state_->resumed && opening_) noteResumed();
     if (state_->facts->scene_path != framed_scene_) {
       rememberCamera(*before);
-      frame_wanted_ = camera_from_memory_ = true;
+      wantFrame(true);
       noteSky();
       memory_.noteScene(state_->facts->scene_path);
     } else {
@@ -156,6 +159,7 @@ void Viewer::takeMaterials() {
   const std::optional<std::uint64_t> opened = std::exchange(opening_, std::nullopt);
   if (opened && state_->epoch > *opened) {
     edits_.begin(materials);
+    edited_by_hand_ = false;
     // Watching may have been switched on while it was read.
     if (watching_ && watch_.sceneOpening() != state_->facts->scene_path)
       watch_.opening(state_->facts->scene_path);
@@ -198,6 +202,12 @@ void Viewer::key(int key, bool ctrl) {
   if (const Action* action = actionOfKey(key, ctrl)) perform(action->key, action->argumentOfKey(key));
 }
 
+char Viewer::printedOn(char key) const {
+  const char* const name = setup_.key_name ? setup_.key_name(key) : nullptr;
+  const bool letter = name && name[0] >= 'a' && name[0] <= 'z' && name[1] == '\0';
+  return letter ? static_cast<char>(name[0] - 'a' + 'A') : key;
+}
+
 /// Shown, said on the terminal, and remembered for the exit code where nobody may be looking.
 void Viewer::fail(const Error& error, bool of_solve) {
   showError(error, of_solve);
@@ -218,7 +228,7 @@ void Viewer::dismiss() {
     ui_.prompt.close();
   } else if (ui_.help) {
     ui_.help = false;
-  } else if (giveUp(true)) {
+  } else if (giveUpShown()) {
     return;
   } else if (sceneChanged()) {
     keepScene();
@@ -243,7 +253,12 @@ void Viewer::dismissNotices() {
 }
 
 void Viewer::open(const std::filesystem::path& scene) {
-  if (lowered(scene.extension().string()) == ".unshot") return resumeSaved(scene);
+  const FileKind* const kind = kindOfFile(scene);
+  if (kind && kind->action != "open")
+    throw Error(
+        ErrorKind::kInput, "this is no scene but " + std::string(kind->what), scene.string(),
+        std::string(kind->action.empty() ? kind->instead : "the action ") + std::string(kind->action));
+  if (kind && !isScene(scene)) return resumeSaved(scene);
   if (watching_) watch_.opening(scene);
   session_.open(scene, ui_.options);
   opening_ = state_->epoch;
@@ -267,7 +282,7 @@ void Viewer::noteResumed() {
   const std::string text = "goes on from " + from.path.string() + ": " + countedText(from.shots, "shot") +
                            " in " + figureText(from.seconds) + " s";
   std::cerr << "unshot: " << text << std::endl;
-  passingNotice(text);
+  notice(text);
 }
 
 void Viewer::giveUpLoading() {
@@ -289,7 +304,25 @@ void Viewer::edit(const std::function<void(MaterialEdits&)>& change) {
   if (opening_) throw Error(ErrorKind::kUsage, "a scene is being opened", {}, "to wait until it is there");
   const std::vector<Material> before = edits_.materials();
   change(edits_);
-  if (edits_.materials() != before) session_.edit(edits_.materials());
+  if (edits_.materials() == before) return;
+  edited_by_hand_ = edited_by_hand_ || !hold_;
+  session_.edit(edits_.materials());
+}
+
+/// Writes what was made of the materials by hand and is in no file, before it goes. Scripts know what they
+/// do.
+void Viewer::keepEdits() {
+  if (!edited_by_hand_ || !edits_.unsaved()) return;
+  try {
+    const std::filesystem::path path = rescueName(".mtl");
+    writeMaterials(path, edits_.materials());
+    edits_.noteSaved();
+    const std::string text = "written: " + path.string() + " (materials as they were edited)";
+    notice(text);
+    if (closing_) std::cerr << "unshot: " << text << std::endl;
+  } catch (...) {
+    fail(presentError());
+  }
 }
 
 std::optional<double> Viewer::gesture() const {
@@ -302,6 +335,7 @@ void Viewer::saveMaterials(std::filesystem::path path) {
   if (edits_.materials().empty())
     throw Error(ErrorKind::kUsage, "there are no materials to save yet", {}, "open a scene");
   writeMaterials(path, edits_.materials());
+  edits_.noteSaved();
   notice("written: " + path.string());
 }
 
@@ -331,9 +365,8 @@ void Viewer::step(std::uint64_t shots) {
   // A command under way may be what begins the solve anew.
   const bool up_to_date = session_.sent() == state_->commands;
   if (up_to_date && state_->phase == SessionPhase::kConverged)
-    passingNotice(state_->stopped_by == "no light" ? "no light to shoot" : "converged; Again shoots it anew");
-  if (up_to_date && state_->phase == SessionPhase::kStopped)
-    passingNotice("limit reached; Again shoots it anew");
+    notice(state_->stopped_by == "no light" ? "no light to shoot" : "converged; Again shoots it anew");
+  if (up_to_date && state_->phase == SessionPhase::kStopped) notice("limit reached; Again shoots it anew");
   session_.step(shots);
 }
 
@@ -378,25 +411,28 @@ void Viewer::noteSaved(const SessionState& before) {
 
 void Viewer::finish() {
   closing_ = true;
+  keepEdits();
   rememberCamera(*state_);
   rememberPanel();
   session_.close();
   takeState(wallSeconds());
 }
 
-/// For a solve that has to be saved somewhere.
-std::filesystem::path Viewer::rescueName() const {
+/// For what has to be saved somewhere.
+std::filesystem::path Viewer::rescueName(const std::string& ending) const {
   try {
-    return newFileName(".unshot");
-  } catch (const Error&) {  // the working folder is gone
-    return newFileName(".unshot", std::filesystem::temp_directory_path());
+    const std::filesystem::path path = newFileName(ending);
+    checkWritable(path);
+    return path;
+  } catch (const Error&) {  // the working folder is gone, or not ours
+    return newFileName(ending, std::filesystem::temp_directory_path());
   }
 }
 
 Error Viewer::rescue(const Error& error) {
   screenshots_.drop();
   const bool lost = setup_.session.kept.path.empty() && state_->facts && state_->measures.shots > 0;
-  const std::filesystem::path path = lost ? rescueName() : std::filesystem::path();
+  const std::filesystem::path path = lost ? rescueName(".unshot") : std::filesystem::path();
   const std::uint64_t saves = state_->saves;
   if (lost) session_.save(path);
   finish();

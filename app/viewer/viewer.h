@@ -58,6 +58,8 @@ struct ViewerSetup {
   std::string script_name;
   /// Asks the window for another size [px]; may be empty.
   std::function<void(int, int)> resize;
+  /// What is printed on a key, as GLFW numbers and names it; null where that is not known. May be empty.
+  std::function<const char*(int key)> key_name;
   /// Gives the window another title; may be empty.
   std::function<void(const std::string&)> title;
   /// Whether the program is to end, such as by Ctrl-C: the window closes. May be empty.
@@ -128,7 +130,7 @@ class Viewer {
   void damaged();
   /// Something was typed or moved: the next frames react.
   void input() { gui_frames_ = kFramesAfterInput; }
-  /// A key went down that no text field wants.
+  /// A key of keyOfActions() went down that no text field wants.
   void key(int key, bool ctrl);
   /// Of the screen, for a GUI of the usual size: 1 is a font of 15 px.
   void setScreenScale(double scale);
@@ -162,6 +164,8 @@ class Viewer {
   const Camera& shownCamera() const { return scene_.shownCamera(); }
   const std::shared_ptr<const Snapshot>& shownSnapshot() const { return scene_.snapshot(); }
   bool drawingScene() const { return scene_.drawing(); }
+  /// The letter on a key that goes by its place: `key` itself where none is known.
+  char printedOn(char key) const;
   double scale() const { return scale_; }
   /// Size of the GUI; a screen of another scale changes it with itself.
   void setScale(double scale);
@@ -173,7 +177,7 @@ class Viewer {
   Rates rates() const;
   double frameMilliseconds() const { return 1000 * frame_cost_; }
 
-  /// Or goes on from a saved solve of the present scene.
+  /// Reads a scene and solves it, or goes on from a saved solve of the present scene.
   void open(const std::filesystem::path& scene);
   /// The present scene as its files are now; the camera stays.
   void reload();
@@ -221,6 +225,8 @@ class Viewer {
   void loadReferencePicture(const std::filesystem::path& file);
   void giveUpReferencePicture();
   void forgetReferencePicture();
+  /// A display mode whose edges or colours are still to be found.
+  void giveUpDisplay();
   /// Null where there is none, or where the display mode shows nothing to compare with it.
   const ReferencePicture* referencePicture() const;
   /// Finds the automatic camera again.
@@ -259,22 +265,24 @@ class Viewer {
   /// Saves the present solve, which goes on, at its next pause between two steps. An empty path: a new name
   /// in the working folder.
   void saveSolve(std::filesystem::path path);
-  /// A line that stays until it was read; one for a moment, instead of the one before.
+  /// A line that stays until it was read; one for a moment, which only echoes a key or a button.
   void notice(std::string text);
   void passingNotice(std::string text);
   void showError(const Error& error, bool of_solve = false);
   const std::optional<Error>& error() const { return notice_.error(); }
   const Messages& messages() const { return notice_; }
+  void noteMessagesRead() { notice_.readAll(); }
   void dismissNotices();
-  /// A list of all actions, or of a folder's scenes (none: where the last one was), with a text to begin
-  /// with.
+  /// A list of all actions, or of a folder's files (none: where the last one was), with a text to begin with.
   void searchActions(const std::string& text);
   void browse(const std::filesystem::path& folder);
   /// What takes its time, of what is under way.
   std::vector<Task> tasks();
   void giveUp(const Task& task);
-  /// Gives up the first of them, or of those that are `shown`; whether there is one.
-  bool giveUp(bool shown = false);
+  /// Gives up one of them, from 0 on; whether there is one.
+  bool giveUp(std::size_t number);
+  /// The first that is shown.
+  bool giveUpShown();
   /// Closes what lies over the scene: the message, else the help, else gives up a task that is shown, else
   /// notices, else what is picked.
   void dismiss();
@@ -287,7 +295,7 @@ class Viewer {
   struct PaintedLook {
     GLuint framebuffer;
     int width, height;
-    std::uint64_t scene;  ///< SceneDisplay::version
+    std::uint64_t scene;  ///< SceneArea::version
     std::size_t gui;      ///< fingerprint
     bool operator==(const PaintedLook&) const = default;
   };
@@ -304,6 +312,7 @@ class Viewer {
   void takeState(double now);
   void noteRates(double now);
   void takeMaterials();
+  void keepEdits();
   void noteSky();
   void resumeSaved(const std::filesystem::path& file);
   void noteResumed();
@@ -333,6 +342,11 @@ class Viewer {
   SceneDisplay::Wanted wanted() const;
   std::shared_ptr<const Snapshot> rivalSnapshot() const;
   bool frame();
+  void wantFrame(bool from_memory);
+  /// Whether a camera is looked for, or will be once there is light to judge it by.
+  bool looksForView() const {
+    return scene_.framing() || (frame_wanted_ && state_->snapshot && !snapshotRefused());
+  }
   void followFrame(const SessionState& before);
   void applyScale();
   void followShape(int width, int height, double now);
@@ -366,7 +380,7 @@ class Viewer {
   bool mayStillSave() const { return state_->saving || !setup_.session.kept.path.empty() || !upToDate(); }
   std::filesystem::path newFileName(const std::string& ending,
                                     const std::filesystem::path& folder = {}) const;
-  std::filesystem::path rescueName() const;
+  std::filesystem::path rescueName(const std::string& ending) const;
 
   ViewerSetup setup_;
   struct GuiContext {
@@ -381,6 +395,7 @@ class Viewer {
   std::shared_ptr<const SessionState> state_;
   ViewerState ui_;
   MaterialEdits edits_;
+  bool edited_by_hand_ = false;               // not by the script alone
   std::optional<std::uint64_t> opening_ = 0;  // another scene than edits_ are of: the epoch before it
   double scale_ = 0, screen_scale_ = 1, relative_scale_ = 1;
 
@@ -426,6 +441,7 @@ class Viewer {
   // The scene shown.
   std::filesystem::path framed_scene_;  // the camera is for this one
   bool frame_wanted_ = true;
+  double view_wanted_at_ = 0;                         // when that began, until the camera is found
   std::shared_ptr<const Snapshot> refused_snapshot_;  // one that the driver has no room for
   std::deque<RatePoint> rate_points_;
 

@@ -56,13 +56,15 @@ Receiver& receiverOf(GLFWwindow* window) { return *static_cast<Receiver*>(glfwGe
 Viewer& viewerOf(GLFWwindow* window) { return receiverOf(window).viewer; }
 
 void setCallbacks(GLFWwindow* window) {
-  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
     Viewer& viewer = viewerOf(w);
     viewer.input();
     if (action == GLFW_PRESS) receiverOf(w).keys.note(key);
+    constexpr int kOfTheDesktop = GLFW_MOD_ALT | GLFW_MOD_SUPER;
+    if (action != GLFW_PRESS || ImGui::GetIO().WantTextInput || (mods & kOfTheDesktop) != 0) return;
     // On most keyboards + is Shift and another key, so only Ctrl tells shortcuts apart.
-    if (action == GLFW_PRESS && !ImGui::GetIO().WantTextInput)
-      viewer.key(key, (mods & GLFW_MOD_CONTROL) != 0);
+    const bool ctrl = (mods & GLFW_MOD_CONTROL) != 0;
+    viewer.key(keyOfActions(key, glfwGetKeyName(key, scancode), ctrl), ctrl);
   });
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double, double) { viewerOf(w).input(); });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int, int, int) { viewerOf(w).input(); });
@@ -156,6 +158,7 @@ int runWindow(ViewerSetup setup, const WindowOptions& wanted) {
     setup.session.gl = solver.get();
     setup.session.wake = [] { glfwPostEmptyEvent(); };
     setup.resize = [window](int width, int height) { resize(window, width, height); };
+    setup.key_name = [](int key) { return glfwGetKeyName(key, 0); };
     setup.title = [window](const std::string& title) { glfwSetWindowTitle(window, title.c_str()); };
     std::shared_ptr<void> watch;
     if (setup.watch_interrupts) watch = setup.watch_interrupts([] { glfwPostEmptyEvent(); });

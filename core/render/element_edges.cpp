@@ -1,6 +1,7 @@
 #include "render/element_edges.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace unshot {
 namespace {
@@ -14,17 +15,18 @@ struct Edge {
 
 }  // namespace
 
-std::vector<std::uint32_t> elementEdges(const Mesh& mesh) {
+std::vector<std::uint32_t> elementEdges(const Mesh& mesh, const CancelToken& cancel) {
   std::vector<Edge> edges;
   edges.reserve(mesh.triangle_vertices.size());
   for (std::size_t t = 0; t < mesh.triangle_element.size(); ++t) {
+    cancel.check();
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = mesh.triangle_vertices[3 * t + k];
       const std::uint32_t b = mesh.triangle_vertices[3 * t + (k + 1) % 3];
       edges.push_back({std::min(a, b), std::max(a, b), mesh.triangle_element[t]});
     }
   }
-  std::sort(edges.begin(), edges.end());
+  std::sort(edges.begin(), edges.end(), cancel.checking(std::less<>()));
   std::vector<std::uint32_t> pairs;
   for (std::size_t i = 0; i < edges.size();) {
     std::size_t end = i + 1;

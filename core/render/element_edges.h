@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/cancel.h"
 #include "mesh/mesh.h"
 
 namespace unshot {
 
-/// Pairs of vertex indices: every edge of the display triangles but those inside an element.
-std::vector<std::uint32_t> elementEdges(const Mesh& mesh);
+/// Pairs of vertex indices: every edge of the display triangles but those inside an element. Throws
+/// Cancelled.
+std::vector<std::uint32_t> elementEdges(const Mesh& mesh, const CancelToken& cancel = {});
 
 }  // namespace unshot

@@ -26,12 +26,13 @@ PatchCorners cornersOf(const Mesh& mesh) {
 
 }  // namespace
 
-std::vector<std::uint8_t> patchColours(const Mesh& mesh) {
+std::vector<std::uint8_t> patchColours(const Mesh& mesh, const CancelToken& cancel) {
   const PatchCorners corners = cornersOf(mesh);
   const std::uint32_t count = kPatchPalette.size();
   std::vector<std::uint32_t> taken(mesh.vertices.size(), 0);  // a bit for each colour
   std::vector<std::uint8_t> out(mesh.patch_count, 0);
   for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
+    cancel.check();
     std::uint32_t around = 0;
     for (std::uint32_t k = corners.first[q]; k < corners.first[q + 1]; ++k)
       around |= taken[corners.vertex[k]];

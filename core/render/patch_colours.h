@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "base/cancel.h"
 #include "mesh/mesh.h"
 
 namespace unshot {
@@ -26,7 +27,7 @@ inline constexpr std::array<glm::vec3, 12> kPatchPalette = {{{0.033f, 0.016f, 0.
                                                              {0.723f, 0.723f, 0.723f}}};
 
 /// One per patch: in kPatchPalette. Patches that share a display vertex have different ones, unless all are
-/// taken around them. The same for the same mesh.
-std::vector<std::uint8_t> patchColours(const Mesh& mesh);
+/// taken around them. The same for the same mesh. Throws Cancelled.
+std::vector<std::uint8_t> patchColours(const Mesh& mesh, const CancelToken& cancel = {});
 
 }  // namespace unshot

@@ -5,7 +5,6 @@
 #include <glm/vec4.hpp>
 
 #include "base/error.h"
-#include "render/element_edges.h"
 #include "render/patch_colours.h"
 #include "session/insight.h"
 
@@ -220,7 +219,6 @@ const gl::Texture& SceneBuffers::bind(const LightChoice& choice, Quantity quanti
   if (const gl::Buffer* field = fieldOf(quantity)) attribute(fn, 5, *field, sizeof(glm::vec3), 0);
   fn.BindBuffer(GL_ARRAY_BUFFER, 0);
   if (quantity != Quantity::kPatches) return light.elements;
-  uploadPatchColours();
   return element_colours_texture_;
 }
 
@@ -242,7 +240,7 @@ void SceneBuffers::beginMesh(const std::shared_ptr<const Mesh>& shared_mesh) {
   sendAll(mesh_uploads_, triangles_, own(mesh.triangle_vertices));
   triangle_index_count_ = static_cast<GLsizei>(mesh.triangle_vertices.size());
   triangle_blocks_ = TriangleBlocks(mesh);
-  edges_uploaded_ = patch_colours_uploaded_ = false;
+  has_edges_ = has_patch_colours_ = false;
 
   beginSides(shared_mesh, unlit);
   sendAll(mesh_uploads_, triangle_elements_, own(mesh.triangle_element));
@@ -316,27 +314,36 @@ void SceneBuffers::beginUnlit(const UnlitSurfaces& unlit) {
 
 void SceneBuffers::bindUnlit() const { context_.functions().BindVertexArray(unlit_vertex_array_.id()); }
 
-void SceneBuffers::uploadEdges() {
-  if (edges_uploaded_) return;
-  const std::vector<std::uint32_t> pairs = elementEdges(*mesh_);
-  const gl::Functions& fn = context_.functions();
-  fn.BindBuffer(GL_COPY_WRITE_BUFFER, edges_.id());
-  fn.BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(pairs.size() * sizeof(pairs[0])), pairs.data(),
-                GL_STATIC_DRAW);
-  fn.BindBuffer(GL_COPY_WRITE_BUFFER, 0);
-  edge_index_count_ = static_cast<GLsizei>(pairs.size());
-  edges_uploaded_ = true;
+bool SceneBuffers::lacksMarks(const DisplayMode& mode) const {
+  return mesh_ &&
+         ((mode.edges && !has_edges_) || (mode.quantity == Quantity::kPatches && !has_patch_colours_));
 }
 
-void SceneBuffers::uploadPatchColours() {
-  if (patch_colours_uploaded_) return;
-  const std::vector<std::uint8_t> colours = patchColours(*mesh_);
-  auto texels = std::make_shared<std::vector<glm::vec3>>();
-  texels->reserve(mesh_->element_count);
-  for (const std::uint32_t patch : mesh_->element_patch) texels->push_back(kPatchPalette[colours[patch]]);
-  send<glm::vec4>(element_colours_, std::move(texels), mesh_->element_count);
-  attachTexels(context_.functions(), element_colours_texture_, GL_RGBA32F, element_colours_);
-  patch_colours_uploaded_ = true;
+void SceneBuffers::beginMarks(const MeshMarks& marks) {
+  if (marks.edges && !has_edges_) {
+    sendAll(mesh_uploads_, edges_, marks.edges);
+    edge_index_count_ = static_cast<GLsizei>(marks.edges->size());
+    has_edges_ = true;
+  }
+  if (marks.patch_colours && !has_patch_colours_) {
+    const std::size_t elements = mesh_->element_count;
+    allocate(context_.functions(), element_colours_, std::max<std::size_t>(elements, 1) * sizeof(glm::vec4),
+             GL_STATIC_DRAW);
+    mesh_uploads_.add<glm::vec4>(
+        element_colours_, elements,
+        [mesh = mesh_, colours = marks.patch_colours](std::size_t first, std::size_t count, glm::vec4* out) {
+          for (std::size_t k = 0; k < count; ++k)
+            out[k] = glm::vec4(kPatchPalette[(*colours)[mesh->element_patch[first + k]]], 0.0f);
+        });
+    attachTexels(context_.functions(), element_colours_texture_, GL_RGBA32F, element_colours_);
+    has_patch_colours_ = true;
+  }
+}
+
+void SceneBuffers::completeMarks(const DisplayMode& mode) {
+  if (!lacksMarks(mode)) return;
+  beginMarks(findMeshMarks(*mesh_, mode));
+  mesh_uploads_.some(mesh_uploads_.bytes());
 }
 
 }  // namespace unshot

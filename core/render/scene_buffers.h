@@ -7,6 +7,7 @@
 #include "gl/objects.h"
 #include "render/camera.h"
 #include "render/display_modes.h"
+#include "render/mesh_marks.h"
 #include "render/reference_light.h"
 #include "render/triangle_blocks.h"
 #include "render/unlit_surfaces.h"
@@ -29,10 +30,12 @@ class SceneBuffers {
   /// About so many more bytes. Nothing may be drawn before all uploadBytes() are sent.
   void upload(std::size_t bytes);
   std::size_t uploadBytes() const { return mesh_uploads_.bytes() + field_uploads_.bytes(); }
-  /// Where that is not done yet, for display modes that show them.
-  void uploadEdges();
-  /// The same for colours of patches.
-  void uploadPatchColours();
+  /// Whether the mode shows marks of the mesh that are not there yet.
+  bool lacksMarks(const DisplayMode& mode) const;
+  /// Begins to upload those of the present mesh.
+  void beginMarks(const MeshMarks& marks);
+  /// Finds and uploads at once those that the mode still lacks.
+  void completeMarks(const DisplayMode& mode);
 
   /// Binds the vertex array with the light and the quantity that are meant, brought up to date. Returns the
   /// same light of the elements, or their colours where the quantity is that. `reference`: what kDifference
@@ -104,7 +107,7 @@ class SceneBuffers {
   GLsizei triangle_index_count_ = 0;
   GLsizei edge_index_count_ = 0;
   std::size_t unlit_corners_ = 0;
-  bool edges_uploaded_ = false, patch_colours_uploaded_ = false;
+  bool has_edges_ = false, has_patch_colours_ = false;  // or they are on their way
 };
 
 }  // namespace unshot

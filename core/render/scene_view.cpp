@@ -70,8 +70,9 @@ const LinearTarget& SceneView::target(LinearTarget& kept, int width, int height)
 
 std::size_t SceneView::pieceCount(const ViewOptions& options, bool with_edges) {
   if (!buffers_.mesh()) return 0;
-  const bool edges = with_edges && displayMode(options.display).edges;
-  if (edges) buffers_.uploadEdges();
+  const DisplayMode& mode = displayMode(options.display);
+  const bool edges = with_edges && mode.edges;
+  if (edges) buffers_.completeMarks(mode);
   return buffers_.triangleCount() + buffers_.unlitCount() + (edges ? buffers_.edgeCount() : 0);
 }
 
@@ -119,6 +120,7 @@ DrawnPieces SceneView::drawPieces(const Camera& camera, double aspect, const Fra
   DrawnPieces drawn{pieces.first, 0};
   if (!buffers_.mesh() || pieces.first >= pieces.end) return drawn;
 
+  if (mode.quantity == Quantity::kPatches) buffers_.completeMarks(mode);
   const glm::mat4 matrix = viewProjection(camera, aspect, buffers_.bounds(), window, depth.range);
   const gl::Texture& element_light =
       buffers_.bind(options.light, mode.quantity, options.reference, options.given(mode.quantity));

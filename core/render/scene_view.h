@@ -92,6 +92,11 @@ class SceneView {
   /// About so many more bytes.
   void upload(std::size_t bytes) { buffers_.upload(bytes); }
   std::size_t uploadBytes() const { return buffers_.uploadBytes(); }
+  /// Whether a picture in this display mode shows marks of the mesh that are not there yet. It finds them
+  /// itself, which takes long where the mesh is large, unless beginMarks() was given them, which are then to
+  /// be uploaded as the rest.
+  bool lacksMarks(const DisplayMode& mode) const { return buffers_.lacksMarks(mode); }
+  void beginMarks(const MeshMarks& marks) { buffers_.beginMarks(marks); }
 
   /// Draws into `viewport` of the bound framebuffer, in one rendering, and returns the automatic exposure:
   /// the factor from linear values to about 1 for white, without exposure_ev.

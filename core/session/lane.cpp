@@ -307,6 +307,7 @@ LaneState Lane::state(bool resting, bool paused) const {
   state.bounces_under_way = !broken() && hasBounceWork();
   state.spare_work = resting && hasSpareWork();
   state.progress = solve_->progress();
+  state.activity = solve_->activity();
   state.kept_bytes = solve_->keptBytes();
   if (looking_on_) state.insight = looking_on_->shown();
   if (resting) state.gathering = gathering();

@@ -59,6 +59,8 @@ void LiveSolve::carryOut(const Command& command) {
   commands_ += edit ? 1 + edit->instead_of : 1;
   if (ran && !running()) offerToSaver();
   settle();
+  // Whoever sends more from now on is told what stays.
+  if (setup_.none_waits()) abandoned_ = false;
   publish();
 }
 
@@ -132,7 +134,9 @@ void LiveSolve::perform(const command::Edit& c) {
   Scene edited = editedScene(lane.solve().scene(), c.materials);
   // A race that is fair begins with nothing shot.
   if (!rival_ && !lane.broken() && lane.solve().canEdit(edited.materials)) {
-    lane.rest();
+    const TaskBeside task(*this, "changing materials", &LiveSolve::editing_);
+    task_done_.reset();
+    publish();
     return lane.edit(
         edited.materials, [this]() -> gl::Context& { return context(); }, CancelToken(*setup_.given_up));
   }
@@ -261,7 +265,7 @@ void LiveSolve::recover() {
 }
 
 SessionPhase LiveSolve::phase() const {
-  if (!task_.empty() && !saving_) return SessionPhase::kLoading;
+  if (!task_.empty() && !saving_ && !editing_) return SessionPhase::kLoading;
   if (!lane_) return SessionPhase::kEmpty;
   const bool rival_runs = rival_ && rival_->running();
   return (rival_runs ? *rival_ : *lane_).phase(paused_);
@@ -333,28 +337,33 @@ void LiveSolve::begin(Start start) {
 void LiveSolve::announce(const std::string& task) {
   abandoned_ = false;
   forEachLane([](Lane& lane) { lane.rest(); });
+  const double now = wallSeconds();
+  if (task_.empty()) loading_began_ = now;
   task_ = task;
   task_done_ = 0;
-  task_began_ = last_told_ = wallSeconds();
+  task_began_ = last_told_ = now;
   publish();
+}
+
+LiveSolve::TaskBeside::TaskBeside(LiveSolve& live, std::string task, bool LiveSolve::*under_way)
+    : live_(live), under_way_(under_way) {
+  live.forEachLane([](Lane& lane) { lane.rest(); });
+  live.task_ = std::move(task);
+  live.*under_way = true;
+  live.task_done_ = 0;
+  live.task_began_ = live.last_told_ = wallSeconds();
+}
+
+LiveSolve::TaskBeside::~TaskBeside() {
+  live_.task_.clear();
+  live_.*under_way_ = false;
 }
 
 /// Saves, and tells how far that is where it takes a while.
 template <class Save>
 void LiveSolve::saving(const std::filesystem::path& path, Save&& save) {
-  forEachLane([](Lane& lane) { lane.rest(); });
-  struct Saving {
-    LiveSolve& live;
-    ~Saving() {
-      live.task_.clear();
-      live.saving_ = false;
-    }
-  } const ends{*this};
   *setup_.save_given_up = false;
-  task_ = "saving " + path.filename().string();
-  saving_ = true;
-  task_done_ = 0;
-  task_began_ = last_told_ = wallSeconds();
+  const TaskBeside task(*this, "saving " + path.filename().string(), &LiveSolve::saving_);
   save(CancelToken(*setup_.save_given_up, &told_));
 }
 
@@ -406,9 +415,11 @@ void LiveSolve::publish() {
   state->task = task_;
   if (!task_.empty()) state->task_done = task_done_;
   state->task_began = task_began_;
+  state->loading_began = loading_began_;
   state->gathering_began = sinceWhen(gathering_began_, state->gathering.has_value());
   state->completing_began = sinceWhen(completing_began_, state->completing.has_value());
   state->saving = saving_;
+  state->editing = editing_;
   state->resumed = resumed_;
   state->problems = problems_;
   state->problem = problem_;

@@ -73,10 +73,11 @@ bool isSuperseded(const Command& command, const Command& later);
 struct LiveSolveSetup {
   gl::Context* gl = nullptr;                                         ///< as SessionSetup::gl
   std::function<void(std::shared_ptr<const SessionState>)> publish;  ///< takes each new state
-  const std::atomic<bool>* given_up = nullptr;                       ///< loading ends where it is raised
-  std::atomic<bool>* save_given_up = nullptr;                        ///< as saving does
-  const std::atomic<double>* interval = nullptr;                     ///< of publication [s]
-  KeptSolve kept;                                                    ///< as SessionSetup::kept
+  std::function<bool()> none_waits;  ///< whether all commands sent are carried out, or one is being
+  const std::atomic<bool>* given_up = nullptr;    ///< loading ends where it is raised
+  std::atomic<bool>* save_given_up = nullptr;     ///< as saving does
+  const std::atomic<double>* interval = nullptr;  ///< of publication [s]
+  KeptSolve kept;                                 ///< as SessionSetup::kept
 };
 
 /// Made, used and destroyed on one thread; the GL context is current there from its first need to the end.
@@ -141,6 +142,18 @@ class LiveSolve {
   void saveKept();
   void takeSteps();
   void announce(const std::string& task);
+  /// Tells of a task that leaves the phase as it is, for as long as it lives.
+  class TaskBeside {
+   public:
+    TaskBeside(LiveSolve& live, std::string task, bool LiveSolve::*under_way);
+    ~TaskBeside();
+    TaskBeside(const TaskBeside&) = delete;
+    TaskBeside& operator=(const TaskBeside&) = delete;
+
+   private:
+    LiveSolve& live_;
+    bool LiveSolve::*under_way_;
+  };
   template <class Save>
   void saving(const std::filesystem::path& path, Save&& save);
   CancelToken loading() const { return CancelToken(*setup_.given_up, &told_); }
@@ -171,13 +184,13 @@ class LiveSolve {
   bool paused_ = false;
   std::uint64_t steps_left_ = 0;  // before a pause; 0: no pause is due
   InsightWanted insight_;
-  std::string task_;                                          // not empty while loading or saving
-  bool saving_ = false;                                       // it is saving
-  double task_began_ = 0, last_told_ = 0;                     // wall time
-  std::optional<double> gathering_began_, completing_began_;  // wall time
+  std::string task_;  // not empty while loading or in a task beside
+  bool saving_ = false, editing_ = false;
+  double loading_began_ = 0, task_began_ = 0, last_told_ = 0;  // wall time
+  std::optional<double> gathering_began_, completing_began_;   // wall time
   std::optional<double> task_done_;
   const CancelToken::Told told_ = [this](double done) { tell(done); };
-  bool abandoned_ = false;  // what was to be loaded last was given up
+  bool abandoned_ = false;  // what commands that wait may be meant for was given up
   Saver saver_;
 
   std::uint64_t version_ = 0, epoch_ = 0, commands_ = 0, problems_ = 0;

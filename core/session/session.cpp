@@ -85,11 +85,17 @@ struct Session::Impl {
   void finish(LiveSolve& live);
   std::optional<Command> next(bool idle);
   void publish(std::shared_ptr<const SessionState> state);
+  /// For what is left at the end see finish().
+  bool noneWaits() const {
+    const std::lock_guard lock(mutex);
+    return queue.empty() && !closing;
+  }
 };
 
 void Session::Impl::run() {
   LiveSolve live({.gl = setup.gl,
                   .publish = [this](std::shared_ptr<const SessionState> state) { publish(std::move(state)); },
+                  .none_waits = [this] { return noneWaits(); },
                   .given_up = &given_up,
                   .save_given_up = &save_given_up,
                   .interval = &interval,

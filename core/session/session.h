@@ -61,6 +61,7 @@ struct LaneState {
   bool bounces_under_way = false;  ///< light by bounces is being worked out, or will be once the solve rests
   bool spare_work = false;     ///< the solve rests, and its estimates or light by bounces still get better
   double progress = 0;         ///< Solve::progress
+  std::string activity;        ///< Solve::activity
   std::size_t kept_bytes = 0;  ///< memory held by kept columns
   std::shared_ptr<const Insight> insight;         ///< what was asked for by lookInto(); null before that
   std::uint64_t drawn = 0;                        ///< hemicubes drawn
@@ -81,11 +82,13 @@ struct SessionState : LaneState {
   std::uint64_t epoch = 0;                    ///< one more where shots count from 0 again; 0: none yet
   std::uint64_t commands = 0;                 ///< how many of the commands sent are carried out
   SessionPhase phase = SessionPhase::kEmpty;  ///< in a race kRunning or kPaused until both have ended
-  std::string task;  ///< while loading or saving: what is being done, such as "reading room.obj"
+  std::string task;  ///< while loading, saving or editing: what is being done, such as "reading room.obj"
   std::optional<double> task_done;                   ///< how much of it, from 0 to 1, where that is known
   double task_began = 0;                             ///< wallSeconds() then
+  double loading_began = 0;                          ///< the same, of the first task of what is being loaded
   double gathering_began = 0, completing_began = 0;  ///< the same, of LaneState::gathering and completing
   bool saving = false;                               ///< it is saving, which leaves the phase as it is
+  bool editing = false;                              ///< it gets ready for other materials, likewise
   std::optional<LaneState> rival;                    ///< in a race: the other solve
   std::optional<ResumedFrom> resumed;                ///< of the present solve, where it was saved before
   std::uint64_t problems = 0;                        ///< how many commands or solves have failed so far
@@ -173,6 +176,7 @@ class Session {
   /// The present solve goes on with the reflectance and emission of these materials (Solve's constructor of
   /// edits): what was shot and received stays, but begins anew in a race, after a step that threw, or where
   /// they emit in places that were dark. Of edits sent before one is carried out the last counts.
+  /// giveUpLoading() gives it up too: the materials before stay.
   void edit(std::vector<Material> materials);
   void pause();
   void resume();

@@ -157,6 +157,8 @@ class Solve {
   const Measures& measures() const;
   /// Fraction of the work done, from the unshot fraction on a log scale: 0 at the start, 1 converged.
   double progress() const;
+  /// What the mode does besides shooting, such as "factorising"; empty: nothing, or it has ended.
+  std::string activity() const;
 
   // For reports.
   const glm::dvec3& sky() const;  ///< radiosity of the sky [W/m^2]; 0 where none is seen

@@ -43,6 +43,11 @@ double Solve::progress() const {
   return std::clamp(reached, 0.0, 0.999);
 }
 
+std::string Solve::activity() const {
+  const Impl& s = *impl_;
+  return s.mode && s.progress_state == SolveState::kRunning ? s.mode->activity() : std::string();
+}
+
 EnergyBalance Solve::energy() const { return energyOf(*impl_->transport, *impl_->state); }
 
 std::vector<glm::dvec3> Solve::patchRadiosity() const {

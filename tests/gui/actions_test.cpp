@@ -17,6 +17,7 @@
 #include "support/assets.h"
 #include "support/live_viewer.h"
 #include "support/temp_folder.h"
+#include "viewer/file_kinds.h"
 
 namespace unshot {
 namespace {
@@ -56,6 +57,34 @@ TEST(Actions, KeysAndShortcutsAreUnique) {
   EXPECT_EQ(actionOfKey('Z', false), nullptr);
 }
 
+// Each key is US's at its place, with what another keyboard has there.
+TEST(Actions, KeysGoByWhatIsPrintedOnThem) {
+  struct Key {
+    int key;
+    const char* printed;
+    bool ctrl;
+    int wanted;
+  };
+  constexpr int kPlus = '=', kBracket = ']', kTab = 258, kKeypadPlus = 334;
+  for (const Key& k : {Key{'Y', "z", true, 'Z'},          // German
+                       Key{'Z', "y", true, 'Y'},          //
+                       Key{kBracket, "+", false, kPlus},  //
+                       Key{'/', "-", false, '-'},         //
+                       Key{';', "m", false, 'M'},         // French
+                       Key{'M', ",", false, 0},           //
+                       Key{'Q', "a", true, 'A'},          //
+                       Key{'A', "q", true, 'Q'},          //
+                       Key{'6', "-", false, '-'},         //
+                       Key{'6', "-", true, '6'},          //
+                       Key{'1', "&", true, '1'},          //
+                       Key{'Q', "'", true, 0},            // Dvorak
+                       Key{'S', "o", false, 'S'},         // a key of flying
+                       Key{'S', "o", true, 'O'},          //
+                       Key{'M', "\u044c", false, 'M'},    // Russian
+                       Key{kTab, nullptr, false, kTab}, Key{kKeypadPlus, "+", false, kPlus}})
+    EXPECT_EQ(keyOfActions(k.key, k.printed, k.ctrl), k.wanted) << k.key << " " << k.ctrl;
+}
+
 TEST(DroppedFiles, TheFirstSceneCounts) {
   const auto chosen = [](std::initializer_list<const char*> files) {
     return chosenFile({files.begin(), files.size()}).string();
@@ -63,6 +92,22 @@ TEST(DroppedFiles, TheFirstSceneCounts) {
   EXPECT_EQ(chosen({"a.mtl", "b.png", "c.OBJ", "d.obj"}), "c.OBJ");
   EXPECT_EQ(chosen({"a.mtl", "b.HDR", "c.png"}), "b.HDR");
   EXPECT_EQ(chosen({"a.mtl", "b.txt"}), "a.mtl");
+  EXPECT_EQ(chosen({"a.script", "b.PLY", "c.unshot"}), "b.PLY");
+}
+
+TEST(FileKinds, EachHasAnActionOrSaysWhatToDo) {
+  for (const FileKind& kind : fileKinds()) {
+    SCOPED_TRACE(kind.ending);
+    EXPECT_EQ(kind.action.empty(), !kind.instead.empty());
+    if (kind.action.empty()) continue;
+    EXPECT_TRUE(findAction(kind.action).needsArgument());
+    EXPECT_EQ(actionOfFile("a" + std::string(kind.ending)), kind.action);
+    std::string name(kind.ending.substr(1));
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](char c) { return static_cast<char>(c - 'a' + 'A'); });
+    if (kind.ending == ".jpg" || kind.action == "open") continue;
+    EXPECT_THAT(findAction(kind.action).help, HasSubstr(name == "PLY" ? "--ply" : name)) << "not in the help";
+  }
 }
 
 TEST(Actions, UnknownOnesAreUsageErrors) {
@@ -87,7 +132,8 @@ TEST(Actions, ChecksRefuseNonsenseAndNeverThrow) {
                                           "-inf",
                                           "1e999",
                                           "0x10",
-                                          "1,2",
+                                          "1;2",
+                                          "1,2,3,4",
                                           "1e-400",
                                           "--",
                                           "\xff\xfe",

@@ -1,7 +1,9 @@
 // The viewer's camera by actions, keys and the wheel.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "base/clock.h"
 #include "support/live_viewer.h"
@@ -216,6 +218,40 @@ TEST_F(ViewerCamera, IsFoundAgainForAWindowOfAnotherShape) {
   act("frame");
   rest();
   EXPECT_EQ(live_->camera(), square);
+}
+
+/// What the mouse does, for scripts.
+TEST(CameraActions, MoveItAsTheySay) {
+  LiveViewer::Options options;
+  options.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
+  options.solve.elements = 200;
+  LiveViewer live(options);
+  ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
+  ASSERT_TRUE(live.until([&] { return live->nextFrame(0) > 1e30; }));
+  const Camera start = live->camera();
+  const ViewBasis basis = viewBasis(start);
+  const double distance = glm::length(start.at - start.eye);
+  /// In camera axes.
+  const auto moved = [&](const char* action, const char* by) {
+    live->setCamera(live->state().snapshot->mesh->frame_origin + start.eye,
+                    live->state().snapshot->mesh->frame_origin + start.at, start.fov_deg);
+    live->perform(action, by);
+    EXPECT_FALSE(live->error()) << action;
+    const glm::dvec3 d = live->camera().eye - start.eye;
+    return glm::dvec3(glm::dot(d, basis.right), glm::dot(d, basis.up), glm::dot(d, basis.forward));
+  };
+  const glm::dvec3 right = moved("orbit", "90,0");
+  EXPECT_GT(right.x, 0.5 * distance);
+  EXPECT_NEAR(glm::length(live->camera().at - start.at), 0, 1e-9 * distance);
+  EXPECT_GT(moved("orbit", "0,20").y, 0.1 * distance);
+  const double height = 2 * distance * std::tan(glm::radians(start.fov_deg) / 2);
+  const glm::dvec3 panned = moved("pan", "0.5,0.25");
+  EXPECT_NEAR(panned.x, 0.5 * height, 1e-6 * height);
+  EXPECT_NEAR(panned.y, 0.25 * height, 1e-6 * height);
+  EXPECT_GT(moved("zoom", "1").z, 0.05 * distance);
+  EXPECT_LT(moved("zoom", "-1").z, -0.05 * distance);
+  const glm::dvec3 flown = moved("fly", "1,2,-3");
+  EXPECT_NEAR(glm::length(flown - glm::dvec3(1, 2, -3)), 0, 1e-9 * distance);
 }
 
 }  // namespace

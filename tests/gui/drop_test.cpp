@@ -73,6 +73,9 @@ TEST_F(Drop, OfWhatIsNoSceneIsSaidAndChangesNothing) {
       {files_.write("notes.txt", "nothing but words\n"), "no line of this file is an OBJ statement"},
       {files_.write("picture.png", std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16)),
        "not a picture that can be read"},
+      {files_.write("light.ply", "nothing but words\n"), "a PLY file written by unshot solve"},
+      {files_.write("walls.mtl", "newmtl wall\n"), "this is no scene but materials of a scene"},
+      {files_.write("walk.script", "frame\n"), "this is no scene but a script"},
       {files_ / "gone.obj", "there is no such file"},
       {files_.path().string(), "this is a folder"}};
   const std::vector<float> calm = upperHalf();

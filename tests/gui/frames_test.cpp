@@ -4,6 +4,8 @@
 
 #include <tuple>
 
+#include "base/clock.h"
+#include "render/element_edges.h"
 #include "support/live_viewer.h"
 
 namespace unshot {
@@ -65,6 +67,47 @@ TEST_F(ViewerFrames, InputsWithoutAPauseDoNotStarveThePicture) {
   live_->resume();
   const std::shared_ptr<const Snapshot> before = live_->shownSnapshot();
   EXPECT_TRUE(despite_inputs([&] { return live_->shownSnapshot() != before; })) << "new light";
+}
+
+// The longest of the window's turns is far shorter than finding them takes.
+TEST_F(ViewerFrames, EdgesAreFoundBesideTheWindow) {
+  const double began = wallSeconds();
+  const std::size_t edges = elementEdges(*live_->shownSnapshot()->mesh).size();
+  const double alone = wallSeconds() - began;
+  ASSERT_GT(edges, 1'000'000u);
+  for (const char* display : {"mesh", "patches"}) {
+    SCOPED_TRACE(display);
+    live_->perform("display", display);
+    double longest = 0;
+    bool told = false;
+    while (live_->nextFrame(0) < 1e30) {
+      for (const Task& task : live_->tasks())
+        told = told || task.text == "finding edges" || task.text == "colouring patches";
+      const double from = wallSeconds();
+      const bool busy = live_.pump() || live_->drawingScene();
+      longest = std::max(longest, wallSeconds() - from);
+      if (!busy) live_.rest(0.01);
+    }
+    EXPECT_TRUE(told);
+    EXPECT_LT(longest, alone / 2);
+    EXPECT_EQ(live_->ui().settings.view.display, display);
+    EXPECT_FALSE(live_->error());
+  }
+}
+
+TEST_F(ViewerFrames, EdgesThatAreGivenUpLeaveTheDisplayBefore) {
+  const int painted = live_.painted();
+  live_->perform("display", "mesh");
+  ASSERT_TRUE(live_.until([this] { return !live_->tasks().empty(); }));
+  EXPECT_EQ(live_->tasks().front().text, "finding edges");
+  live_->perform("give-up");
+  EXPECT_EQ(live_->ui().settings.view.display, "radiosity");
+  EXPECT_TRUE(live_->tasks().empty());
+  EXPECT_TRUE(live_.until([this] { return live_->nextFrame(0) > 1e30; }));
+  EXPECT_GT(live_.painted(), painted) << "not said";
+  live_->perform("display", "mesh");
+  EXPECT_TRUE(live_.until([this] { return live_->nextFrame(0) > 1e30; }));
+  EXPECT_EQ(live_->ui().settings.view.display, "mesh");
 }
 
 TEST(ViewerFrame, IsDrawnAgainOnlyWhereItLooksOtherwise) {

@@ -220,6 +220,19 @@ TEST(Lecture, WhatTheMouseIsOverIsLitInTheScene) {
   EXPECT_GE(filledCorners(IM_COL32(96, 190, 255, 120)), 3);
   hover(live, 400, 100);
   EXPECT_EQ(teaching.marks().size(), 1u);
+  // Scripts have no mouse.
+  const auto markedBy = [&](const char* action, const char* argument) {
+    live->perform(action, argument);
+    for (int frame = 0; frame < 4; ++frame) live.draw();
+    return teaching.marks().size();
+  };
+  EXPECT_EQ(markedBy("matrix-cell", "2,1"), 3u);
+  EXPECT_GE(filledCorners(IM_COL32(255, 176, 64, 120)), 3) << "what sends";
+  EXPECT_EQ(markedBy("matrix-cell", "999,1"), 1u) << "there are 64 at most";
+  EXPECT_EQ(markedBy("matrix-cell", "off"), 1u);
+  EXPECT_EQ(markedBy("hemicube-pixel", "0.1,0.5"), 2u) << "a side face";
+  EXPECT_EQ(markedBy("hemicube-pixel", "off"), 1u);
+  EXPECT_FALSE(live->error());
 }
 
 /// Corners in red of the lecture's page: bars and text that say that a series has no sum.

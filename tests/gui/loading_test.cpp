@@ -1,6 +1,7 @@
 // What takes its time and is shown to: how far it is, and that it can be given up.
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <imgui_internal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -45,6 +46,11 @@ TEST_P(GivenUp, LoadingLeavesTheSceneBefore) {
   const std::uint64_t epoch = live->state().epoch;
   live->perform("open", landscape_file);
   ASSERT_TRUE(live.untilPhase(SessionPhase::kLoading));
+  // Esc takes only what is shown.
+  ASSERT_TRUE(live.until([&] {
+    const std::vector<Task> tasks = live->tasks();
+    return !tasks.empty() && tasks.front().shown(wallSeconds());
+  }));
   live->perform(GetParam());
   ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
   live.draw();
@@ -53,8 +59,43 @@ TEST_P(GivenUp, LoadingLeavesTheSceneBefore) {
   EXPECT_EQ(live->ui().options.elements, 300u);
   EXPECT_FALSE(live->error());
   EXPECT_EQ(live->exitCode(), 0);
-  live->perform("reflectance", "white 0.5,0.5,0.5");  // of the scene that stays
+  // Of the scene that stays.
+  live->perform("reflectance", "white 0.5,0.5,0.5");
+  live->perform("save-solve", folder / "s.unshot");
+  ASSERT_TRUE(live.until([&] { return live->state().saves == 1 || live->error(); }));
   EXPECT_FALSE(live->error());
+}
+
+// A small scene is there again before anybody could read that it is loaded.
+TEST(ShortTasks, DoNotFlash) {
+  LiveViewer::Options options;
+  options.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
+  options.solve.elements = 200;
+  LiveViewer live(options);
+  const auto rest = [&] {
+    return live->state().phase == SessionPhase::kConverged && live->nextFrame(0) > 1e30;
+  };
+  ASSERT_TRUE(live.until(rest));
+  const auto active = [](const char* name) {
+    const ImGuiWindow* window = ImGui::FindWindowByName(name);
+    return window && window->Active;
+  };
+  // Each of them loads, or looks for a view, anew.
+  for (const char* action : {"restart", "hemicube 32", "emit front", "sky 1,1,1", "frame"}) {
+    const std::string text = action;
+    const std::size_t space = std::min(text.find(' '), text.size());
+    const double began = wallSeconds();
+    int frames = 0;
+    live->perform(text.substr(0, space), text.substr(std::min(space + 1, text.size())));
+    ASSERT_TRUE(live.until([&] {
+      live.draw();
+      ++frames;
+      const bool said = active("tasks") || active("framing");
+      EXPECT_TRUE(!said || wallSeconds() > began + Task::kMoment) << text;
+      return live->upToDate() && rest();
+    }));
+    EXPECT_GT(frames, 1);
+  }
 }
 
 /// What a large scene tells while it is loaded.
@@ -137,6 +178,34 @@ TEST_F(LongTasks, ASaveThatIsGivenUpIsSaidAndStopsNothingElse) {
   EXPECT_FALSE(viewer().error());
   const std::uint64_t shots = viewer().state().measures.shots;
   EXPECT_TRUE(live().until([&] { return viewer().state().measures.shots > shots; }));
+}
+
+TEST_F(LongTasks, AChangeOfMaterialsCanBeGivenUp) {
+  ASSERT_TRUE(untilShot());
+  const std::vector<Material> before = viewer().edits().materials();
+  std::vector<Task> tasks;
+  viewer().perform("reflectance", "ground 0.5,0.25,0.125");
+  ASSERT_TRUE(live().until([&] {
+    tasks = viewer().tasks();
+    return viewer().state().editing;
+  }));
+  ASSERT_FALSE(tasks.empty());
+  EXPECT_EQ(tasks.back().text, "changing materials");
+  EXPECT_NE(viewer().state().phase, SessionPhase::kLoading);
+  viewer().giveUp(tasks.back());
+  ASSERT_TRUE(live().until([&] { return viewer().upToDate(); }));
+  EXPECT_EQ(viewer().edits().materials(), before);
+  EXPECT_EQ(viewer().state().epoch, 1u);
+  EXPECT_FALSE(viewer().state().editing);
+  // The solve goes on, can be edited again, and is saved as any other.
+  viewer().perform("save-solve", folder_ / "s.unshot");
+  ASSERT_TRUE(live().until([&] { return viewer().state().saves == 1 || viewer().error(); }));
+  EXPECT_FALSE(viewer().error());
+  viewer().perform("reflectance", "ground 0.5,0.25,0.125");
+  EXPECT_TRUE(live().until([&] {
+    return viewer().upToDate() && viewer().state().snapshot->mesh->materials == viewer().edits().materials();
+  }));
+  EXPECT_NE(viewer().edits().materials(), before);
 }
 
 TEST_F(LongTasks, AReferenceThatIsGivenUpIsNone) {

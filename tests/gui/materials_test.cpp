@@ -45,7 +45,18 @@ double meanIrradiance(LiveViewer& live) {
   return sum / static_cast<double>(live->state().snapshot->irradiance.size());
 }
 
-TEST(Materials, ActionsChangeThemWhileTheSolveGoesOn) {
+/// In a folder of its own, for what is written without a name.
+class Materials : public testing::Test {
+ protected:
+  Materials() : before_(std::filesystem::current_path()) { std::filesystem::current_path(folder_.path()); }
+  ~Materials() override { std::filesystem::current_path(before_); }
+  TempFolder folder_;
+
+ private:
+  std::filesystem::path before_;
+};
+
+TEST_F(Materials, ActionsChangeThemWhileTheSolveGoesOn) {
   LiveViewer live(boxToEdit("wait converged\nreflectance red 0.1,0.2,0.7\nemission light 34,24,8\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
   ASSERT_TRUE(carriedOut(live));
@@ -64,7 +75,7 @@ TEST(Materials, ActionsChangeThemWhileTheSolveGoesOn) {
   EXPECT_FALSE(live->error());
 }
 
-TEST(Materials, AnyCanBeALight) {
+TEST_F(Materials, AnyCanBeALight) {
   LiveViewer live(boxToEdit("wait converged\nlight green on\nlight light off\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
   ASSERT_TRUE(carriedOut(live));
@@ -72,7 +83,7 @@ TEST(Materials, AnyCanBeALight) {
   EXPECT_GT(meanIrradiance(live), 1);
 }
 
-TEST(Materials, UndoAndRedoGoStepByStep) {
+TEST_F(Materials, UndoAndRedoGoStepByStep) {
   LiveViewer live(boxToEdit());
   ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
   const std::vector<Material> opened = live->edits().materials();
@@ -103,7 +114,7 @@ TEST(Materials, UndoAndRedoGoStepByStep) {
   EXPECT_FALSE(live->edits().edited());
 }
 
-TEST(Materials, ADragIsUndoneAsOne) {
+TEST_F(Materials, ADragIsUndoneAsOne) {
   MaterialEdits edits;
   edits.begin({{"wall", glm::dvec3(0.5), {}}});
   for (const double x : {0.1, 0.2, 0.3}) edits.setReflectance(0, glm::dvec3(x), 7.5);
@@ -114,7 +125,7 @@ TEST(Materials, ADragIsUndoneAsOne) {
   EXPECT_EQ(edits.materials()[0].reflectance, glm::dvec3(0.5));
 }
 
-TEST(Materials, WhatCannotBeIsSaidAndChangesNothing) {
+TEST_F(Materials, WhatCannotBeIsSaidAndChangesNothing) {
   LiveViewer live(boxToEdit());
   ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
   for (const auto& [action, argument, message] :
@@ -130,7 +141,7 @@ TEST(Materials, WhatCannotBeIsSaidAndChangesNothing) {
   EXPECT_FALSE(live->edits().edited());
 }
 
-TEST(Materials, OfASceneThatIsBeingOpenedAreNotEditedBlindly) {
+TEST_F(Materials, OfASceneThatIsBeingOpenedAreNotEditedBlindly) {
   LiveViewer live(boxToEdit());
   ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
   live->perform("reflectance", "red 0.5,0.5,0.5");
@@ -152,16 +163,15 @@ TEST(Materials, OfASceneThatIsBeingOpenedAreNotEditedBlindly) {
   EXPECT_FALSE(live->edits().edited());
 }
 
-TEST(Materials, AreSavedAsTheyAreShown) {
-  const TempFolder folder;
-  const std::string file = (folder.path() / "edited.mtl").string();
+TEST_F(Materials, AreSavedAsTheyAreShown) {
+  const std::string file = folder_ / "edited.mtl";
   LiveViewer live(boxToEdit("wait converged\nreflectance red 0.1,0.2,0.7\nsave-materials " + file + "\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
   // The scene with this file in the place of its own is the same.
   std::filesystem::copy_file(std::filesystem::path(UNSHOT_SOURCE_DIR) / "assets/cornell_box.obj",
-                             folder.path() / "cornell_box.obj");
-  std::filesystem::rename(file, folder.path() / "cornell_box.mtl");
-  const std::vector<Material> read = readObj(folder.path() / "cornell_box.obj").materials;
+                             folder_.path() / "cornell_box.obj");
+  std::filesystem::rename(file, folder_.path() / "cornell_box.mtl");
+  const std::vector<Material> read = readObj(folder_.path() / "cornell_box.obj").materials;
   ASSERT_EQ(read.size(), live->edits().materials().size());
   for (std::size_t m = 0; m < read.size(); ++m) {
     const Material& saved = live->edits().materials()[m];
@@ -173,7 +183,57 @@ TEST(Materials, AreSavedAsTheyAreShown) {
   }
 }
 
-TEST(Materials, TheLightInThePanelIsSwitched) {
+// Another scene, the same one read again, the window's end: none of them costs what was made by hand.
+TEST_F(Materials, ThatWereEditedAreWrittenBeforeTheyGo) {
+  LiveViewer live(boxToEdit());
+  ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
+  live->perform("reflectance", "red 0.125,0.25,0.75");
+  live->perform("open", (std::filesystem::path(UNSHOT_SOURCE_DIR) / "assets/two_patches.obj").string());
+  ASSERT_TRUE(live.until([&] { return live->state().epoch == 2 && live->upToDate(); }));
+  EXPECT_EQ(folder_.names(), std::set<std::string>{"unshot-cornell_box-001.mtl"});
+  EXPECT_THAT(folder_.read("unshot-cornell_box-001.mtl"), HasSubstr("Kd 0.125 0.25 0.75"));
+  EXPECT_THAT(live->messages().lines(), testing::Contains(HasSubstr("unshot-cornell_box-001.mtl")));
+  live->perform("light", "floor on");
+  live->perform("reload");
+  ASSERT_TRUE(live.until([&] { return live->state().epoch == 3 && live->upToDate(); }));
+  EXPECT_TRUE(folder_.has("unshot-two_patches-001.mtl"));
+  live->perform("emission", "floor 0.5,0.5,0.5");
+  testing::internal::CaptureStderr();
+  live->finish();
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr(folder_ / "unshot-two_patches-002.mtl"));
+  EXPECT_THAT(folder_.read("unshot-two_patches-002.mtl"), HasSubstr("Ke 0.5 0.5 0.5"));
+  EXPECT_EQ(folder_.names().size(), 3u);
+  EXPECT_EQ(live->exitCode(), 0);
+}
+
+TEST_F(Materials, ThatAreAtHandAnywayAreNotWritten) {
+  {  // by whoever wrote the script
+    LiveViewer live(
+        boxToEdit("wait converged\nreflectance red 0.1,0.2,0.7\nreload\nwait converged\n"
+                  "reflectance red 0.1,0.2,0.7\n"));
+    ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
+    EXPECT_TRUE(live->edits().edited());
+    live->finish();
+  }
+  EXPECT_EQ(folder_.names(), std::set<std::string>{});
+  LiveViewer live(boxToEdit());
+  ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
+  live->perform("reflectance", "red 0.1,0.2,0.7");
+  live->perform("restart");  // goes on with them
+  ASSERT_TRUE(live.until([&] { return live->state().epoch == 2 && live->upToDate(); }));
+  live->perform("open", "missing.obj");
+  ASSERT_TRUE(live.until([&] { return live->error().has_value(); }));
+  EXPECT_EQ(folder_.names(), std::set<std::string>{}) << "nothing was lost";
+  live->perform("save-materials", "mine.mtl");
+  live->perform("reload");
+  ASSERT_TRUE(live.until([&] { return live->state().epoch == 3 && live->upToDate(); }));
+  live->perform("reflectance", "red 0.1,0.2,0.7");
+  live->perform("undo");
+  live->finish();
+  EXPECT_EQ(folder_.names(), std::set<std::string>{"mine.mtl"});
+}
+
+TEST_F(Materials, TheLightInThePanelIsSwitched) {
   LiveViewer live(boxToEdit("wait converged\nmaterials on\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
   live->ui().material = live->edits().find("light");
@@ -192,7 +252,7 @@ TEST(Materials, TheLightInThePanelIsSwitched) {
   EXPECT_EQ(live->state().stopped_by, "no light");
 }
 
-TEST(Materials, WhatIsPickedIsTheOneToBeChanged) {
+TEST_F(Materials, WhatIsPickedIsTheOneToBeChanged) {
   LiveViewer live(boxToEdit("wait converged\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone() && live->nextFrame(0) > 1e30; }));
   std::set<std::string> picked;
@@ -210,7 +270,7 @@ TEST(Materials, WhatIsPickedIsTheOneToBeChanged) {
 }
 
 // What is remembered stays comparable, since the mesh is the same.
-TEST(Materials, TheLightBeforeAnEditCanBeComparedWith) {
+TEST_F(Materials, TheLightBeforeAnEditCanBeComparedWith) {
   LiveViewer live(boxToEdit("wait converged\nremember\nreflectance red 0.1,0.2,0.7\nwait converged\n"));
   ASSERT_TRUE(live.until([&] { return live->scriptDone(); }));
   ASSERT_TRUE(carriedOut(live));

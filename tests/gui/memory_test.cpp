@@ -86,6 +86,8 @@ TEST(Memory, SaysOnceThatItCannotKeepAnything) {
   EXPECT_THAT(said, testing::HasSubstr("not remembered"));
   EXPECT_EQ(said.find("not remembered"), said.rfind("not remembered"));
   EXPECT_FALSE(memory.on());
+  EXPECT_THAT(memory.takeComplaint(), testing::HasSubstr("not remembered"));
+  EXPECT_EQ(memory.takeComplaint(), "");
 }
 
 TEST(Memory, WithoutAFolderRemembersNothing) {

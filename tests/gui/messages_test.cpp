@@ -13,6 +13,7 @@
 
 #include "base/clock.h"
 #include "gui/support/gui_layout.h"
+#include "gui/support/mouse.h"
 #include "support/live_viewer.h"
 #include "support/temp_folder.h"
 #include "viewer/window_words.h"
@@ -84,6 +85,34 @@ TEST(Messages, NoticesAreDismissedAndPassingOnesStay) {
   EXPECT_FALSE(said.dismissNotices());
 }
 
+TEST(Messages, WhatGoesUnreadIsCountedUntilItIsSeen) {
+  Messages said;
+  said.addPassing("display: Mesh", 0);  // an echo
+  EXPECT_EQ(said.unread(), 0u);
+  said.add("written: a", 0);
+  said.addError(errorOf("wrong"), false, 0);
+  said.addError(errorOf("of the scene"), true, 0);
+  EXPECT_EQ(said.unread(), 3u);
+  said.dismissError();
+  EXPECT_EQ(said.unread(), 2u);
+  said.forgetErrorsOfSolve();
+  for (double now = 0; now < 100; now += 0.25) said.userActs(now);
+  EXPECT_THAT(said.lines(), testing::Not(testing::Contains("written: a")));
+  EXPECT_EQ(said.unread(), 2u) << "gone is not read";
+  said.add("written: b", 100);
+  said.dismissNotices();
+  EXPECT_EQ(said.unread(), 2u);
+  said.readAll();
+  EXPECT_EQ(said.unread(), 0u);
+}
+
+TEST(Messages, TheSameLineStandsOnce) {
+  Messages said;
+  for (const char* text : {"converged", "written: a", "converged"}) said.add(text, 0);
+  EXPECT_THAT(said.lines(), ElementsAre("written: a", "converged"));
+  EXPECT_EQ(said.log().size(), 3u);
+}
+
 TEST(Messages, MoreThanHaveRoomAreCounted) {
   Messages said;
   for (int k = 0; k < 7; ++k) said.add("written: " + std::to_string(k), k);
@@ -150,6 +179,9 @@ TEST(ViewerMessages, AreListedAtTheEndOfThePanel) {
   live->perform("next-display");
   for (int frame = 0; frame < 3; ++frame) live.draw();
   EXPECT_THAT(panelText(), HasSubstr("Messages(2)"));
+  live->notice("written: some.png");
+  for (int frame = 0; frame < 3; ++frame) live.draw();
+  EXPECT_THAT(panelText(), HasSubstr("Messages(3,1unread)"));
   EXPECT_THAT(panelText(), testing::Not(HasSubstr("zebra")));
   for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
     if (window->Active && std::string(window->Name).starts_with("panel/sections"))
@@ -161,7 +193,56 @@ TEST(ViewerMessages, AreListedAtTheEndOfThePanel) {
   }
   const std::string text = panelText();
   EXPECT_LT(text.find("display:Radiosityperelement"), text.find("thereisno'zebra'")) << "the newest is first";
-  EXPECT_THAT(text, HasSubstr("thereisno'zebra'"));
+  EXPECT_THAT(text, HasSubstr("Error:thereisno'zebra'"));
+  EXPECT_THAT(text, HasSubstr("Messages(3)")) << "all are seen";
+}
+
+// What is more than the echo of a key stays.
+TEST(ViewerMessages, WhatACommandCameToIsToBeRead) {
+  LiveViewer live(box());
+  ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
+  ASSERT_TRUE(live.until([&] { return live->upToDate(); }));
+  live->perform("step");
+  EXPECT_THAT(live->messages().lines(), testing::Contains(HasSubstr("Again")));
+  live->perform("projection", "orthographic");
+  EXPECT_EQ(live->messages().unread(), 1u) << "an echo needs no reader";
+  live->perform("copy-camera", "options");
+  EXPECT_EQ(live->messages().unread(), 2u);
+  EXPECT_TRUE(live->messages().stays());
+}
+
+// In a small window they take much of the scene.
+TEST(ViewerMessages, LeaveTheMouseToTheScene) {
+  LiveViewer::Options options = box();
+  options.width = 640;
+  options.height = 360;
+  LiveViewer live(options);
+  ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
+  ASSERT_TRUE(live.until([&] { return live->nextFrame(0) > 1e30; }));
+  live->notice("written: /a/folder/with/a/long/name/and/another/one/picture.png");
+  testing_support::Mouse mouse(live);
+  mouse.frames();
+  const ImGuiWindow* window = ImGui::FindWindowByName("notice");
+  ASSERT_TRUE(window && window->Active);
+  const ImRect box_of_notice = window->Rect();
+  ASSERT_GT(box_of_notice.GetHeight(), 30) << "one line";
+  const glm::dvec3 eye = live->camera().eye;
+  mouse.drag({box_of_notice.Min.x + 20, box_of_notice.GetCenter().y});
+  EXPECT_NE(live->camera().eye, eye) << "the scene cannot be turned below the line";
+  mouse.click({box_of_notice.Max.x - 14, box_of_notice.Min.y + 14});
+  EXPECT_THAT(live->messages().lines(), IsEmpty());
+}
+
+TEST(ViewerMessages, TheWindowSaysThatNothingIsRemembered) {
+  const TempFolder folder;
+  folder.write("file", "");
+  LiveViewer::Options options = box();
+  options.memory = folder.path() / "file" / "memory";
+  LiveViewer live(options);
+  EXPECT_TRUE(live.until([&] {
+    const std::vector<std::string> lines = live->messages().lines();
+    return !lines.empty() && lines.front().starts_with("cameras and settings are not remembered");
+  }));
 }
 
 TEST(ViewerMessages, ASecondErrorComesAfterTheFirst) {

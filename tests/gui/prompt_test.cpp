@@ -1,6 +1,7 @@
 // The searchable list of actions, the list of scenes, the hint: their models, and typed at as a person does.
 #include <gmock/gmock.h>
 
+#include "export/image_files.h"
 #include "support/live_viewer.h"
 #include "support/temp_folder.h"
 #include "viewer/actions/action_search.h"
@@ -53,7 +54,8 @@ TEST(ActionSearch, ReadsAnArgumentBehindTheName) {
 class Files : public testing::Test {
  protected:
   Files() {
-    for (const char* name : {"b.obj", "A.OBJ", "notes.txt", ".hidden.obj", "room one.obj", "room two.obj"})
+    for (const char* name : {"b.obj", "A.OBJ", "notes.txt", ".hidden.obj", "room one.obj", "room two.obj",
+                             "A.mtl", "a later.unshot", "a.Png", "a.ply"})
       folder_.write(name, "");
     for (const char* name : {"rooms", "empty", ".git"})
       std::filesystem::create_directory(folder_.path() / name);
@@ -69,9 +71,10 @@ class Files : public testing::Test {
   FileList files_;
 };
 
-TEST_F(Files, AreFoldersAndScenesByName) {
+TEST_F(Files, AreFoldersThenScenesThenOthersByName) {
   EXPECT_THAT(namesOf(files_.entries()),
-              ElementsAre("../", "empty/", "rooms/", "A.OBJ", "b.obj", "room one.obj", "room two.obj"));
+              ElementsAre("../", "empty/", "rooms/", "A.OBJ", "b.obj", "room one.obj", "room two.obj",
+                          "a later.unshot", "a.ply", "a.Png"));
   EXPECT_EQ(files_.pathOf(files_.entries()[0]), files_.folder().parent_path());
   EXPECT_EQ(files_.pathOf(files_.entries()[3]), files_.folder() / "A.OBJ");
   FileList root;
@@ -81,7 +84,7 @@ TEST_F(Files, AreFoldersAndScenesByName) {
 
 TEST_F(Files, MatchWhatIsTypedWhateverItsCase) {
   EXPECT_THAT(namesOf(files_.matching("O")),
-              ElementsAre("rooms/", "A.OBJ", "b.obj", "room one.obj", "room two.obj"));
+              ElementsAre("rooms/", "A.OBJ", "b.obj", "room one.obj", "room two.obj", "a later.unshot"));
   EXPECT_THAT(namesOf(files_.matching("ROOM")), ElementsAre("rooms/", "room one.obj", "room two.obj"));
   EXPECT_THAT(files_.matching("zebra"), IsEmpty());
 }
@@ -218,12 +221,22 @@ TEST_F(PromptedViewer, ASceneIsOpenedByItsTypedPath) {
   EXPECT_EQ(prompt().files.folder(), std::filesystem::canonical(UNSHOT_SOURCE_DIR "/assets"));
   type("nothing");
   press(ImGuiKey_Enter);
-  EXPECT_THAT(prompt().wrong, HasSubstr("no scene or folder 'nothing'"));
+  EXPECT_THAT(prompt().wrong, HasSubstr("has 'nothing' in its name"));
   for (int k = 0; k < 7; ++k) press(ImGuiKey_Backspace);
   type("furn");
   press(ImGuiKey_Enter);
   EXPECT_FALSE(prompt().open());
   EXPECT_TRUE(live_.until([&] { return live_->state().facts->scene_name == "furnace"; }));
+}
+
+TEST_F(PromptedViewer, APictureIsChosenFromTheListToCompareWith) {
+  writePng(folder_.path() / "photograph.png", Image8{2, 1, {255, 128, 0, 0, 128, 255}});
+  live_->perform("browse", folder_.path().string());
+  frames();
+  type("photo");
+  press(ImGuiKey_Enter);
+  EXPECT_FALSE(prompt().open());
+  EXPECT_TRUE(live_.until([&] { return live_->referencePicture() != nullptr; }));
 }
 
 TEST_F(PromptedViewer, AFolderThatIsNoneIsSaid) {

@@ -239,8 +239,10 @@ TEST_F(ReferencePictures, AreNotComparedWhileTheCameraMoves) {
   viewer_.performAndWait("reference-picture", direct_);
   look();
   const double still = error();
+  const glm::dvec3 at = viewer_->camera().at;
   for (int k = 0; k < 5; ++k) {
-    ImGui::GetIO().MousePos = {200.0f + 9.0f * static_cast<float>(k), 50};
+    // Beside the line in the middle.
+    ImGui::GetIO().MousePos = {260.0f + 9.0f * static_cast<float>(k), 50};
     ImGui::GetIO().MouseDown[1] = true;
     viewer_->input();
     look(1);
@@ -248,6 +250,7 @@ TEST_F(ReferencePictures, AreNotComparedWhileTheCameraMoves) {
   }
   ImGui::GetIO().MouseDown[1] = false;
   viewer_->input();
+  EXPECT_NE(viewer_->camera().at, at);
   EXPECT_TRUE(viewer_.until([&] { return error() != still; }, 20)) << "nor after it";
 }
 

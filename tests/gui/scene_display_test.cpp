@@ -66,6 +66,15 @@ class SceneDisplays : public testing::Test {
     return calls;
   }
 
+  /// They are found beside the window, and no picture is drawn before.
+  void findMarks(SceneDisplay& display) {
+    const std::uint64_t version = display.version();
+    display.draw(wanted_, -1, wallSeconds());
+    EXPECT_TRUE(display.waitingSince());
+    while (display.waits(wanted_)) display.draw(wanted_, -1, wallSeconds());
+    EXPECT_EQ(display.version(), version);
+  }
+
   std::unique_ptr<gl::Context> context_;
   std::shared_ptr<const Snapshot> snapshot_;
   SceneDisplay::Wanted wanted_;
@@ -78,6 +87,9 @@ TEST_F(SceneDisplays, InSlicesThePictureIsTheSame) {
     SceneDisplay at_once(*context_), slowly(*context_);
     at_once.setSnapshot(snapshot_);
     slowly.setSnapshot(snapshot_);
+    if (mode.edges || mode.quantity == Quantity::kPatches) {
+      for (SceneDisplay* display : {&at_once, &slowly}) findMarks(*display);
+    }
     EXPECT_TRUE(at_once.draw(wanted_, -1, SceneDisplay::kAtOnce));
     EXPECT_FALSE(at_once.drawing());
     EXPECT_GE(drawSlowly(slowly), 4);

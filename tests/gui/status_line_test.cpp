@@ -119,6 +119,69 @@ TEST(ErrorInFront, IsNeverZeroWhereNoiseHidesIt) {
   EXPECT_EQ(errorInFront(state), "error about 0 %") << "nothing is reflected";
 }
 
+TEST(StatusLine, NamesWhatIsDoneBesideShooting) {
+  SessionState state;
+  state.phase = SessionPhase::kRunning;
+  EXPECT_EQ(phaseLook(state).text, "Shooting");
+  state.activity = "factorising";
+  EXPECT_EQ(phaseLook(state).text, "Factorising");
+  state.phase = SessionPhase::kConverged;
+  EXPECT_EQ(phaseLook(state).text, "Converged");
+  state.spare_work = true;
+  EXPECT_EQ(phaseLook(state).text, "Converged, estimating");
+  state.bounces_under_way = true;
+  EXPECT_EQ(phaseLook(state).text, "Converged");
+}
+
+// Step by step, so that none of it is missed.
+TEST(StatusLine, TheSolveTellsWhatItsModeDoes) {
+  LiveViewer::Options options = box(320, 240);
+  options.solve.elements = 100;
+  options.solve.mode = "direct";
+  options.script = "pause on\n";
+  LiveViewer viewer(options);
+  ASSERT_TRUE(viewer.untilPhase(SessionPhase::kPaused));
+  std::set<std::string> told;
+  ASSERT_TRUE(viewer.until([&] {
+    if (!viewer->upToDate()) return false;
+    told.insert(viewer->state().activity);
+    if (viewer->state().phase == SessionPhase::kConverged) return true;
+    viewer->step(1);
+    return false;
+  }));
+  EXPECT_TRUE(told.contains("factorising")) << testing::PrintToString(told);
+  EXPECT_EQ(viewer->state().activity, "");
+}
+
+/// The rectangle at the upper left corner of the line that is as high as a few pixels; 0: there is none.
+float progressShown() {
+  if (!status()) return 0;
+  const ImVec2 corner = status()->Pos;
+  const auto& vertices = status()->DrawList->VtxBuffer;
+  for (int k = 0; k + 3 < vertices.Size; k += 4) {
+    const ImVec2 from = vertices[k].pos, to = vertices[k + 2].pos;
+    if (from.x == corner.x && from.y == corner.y && to.y - from.y < 4) return to.x - from.x;
+  }
+  return 0;
+}
+
+TEST(StatusLine, ALineGrowsAsTheSolveGoesOn) {
+  LiveViewer::Options options = box(1280, 720);
+  options.solve.elements = 10'000;
+  LiveViewer viewer(options);
+  std::set<float> widths;
+  ASSERT_TRUE(viewer.until([&] {
+    viewer.draw();
+    const float width = progressShown(), whole = status() ? status()->Size.x : 0;
+    EXPECT_LE(width, whole);
+    if (viewer->state().phase == SessionPhase::kRunning && width > 0) widths.insert(width);
+    return viewer->state().phase == SessionPhase::kConverged;
+  }));
+  EXPECT_GE(widths.size(), 3u);
+  viewer.draw();
+  EXPECT_EQ(progressShown(), 0) << "its time is over";
+}
+
 TEST(StatusLine, LeavesTheLastOutWhereItIsNarrow) {
   LiveViewer viewer(box(640, 360));
   ASSERT_TRUE(viewer.untilPhase(SessionPhase::kConverged));

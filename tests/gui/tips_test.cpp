@@ -96,6 +96,21 @@ TEST_F(Tips, OfTheFiguresInThePanelSayUnitOrFormula) {
   EXPECT_GT(figures, 20);
 }
 
+// Not at the right of a name, as other figures are.
+TEST_F(Tips, OfTheHistogramSaysItsUnit) {
+  live_->perform("histogram", "on");
+  mouse_.rest();
+  const ImGuiWindow* panel = childOf("panel", "sections");
+  ASSERT_TRUE(panel);
+  const std::vector<Words> words = wordsOf(*panel);
+  const auto title =
+      std::find_if(words.begin(), words.end(), [](const Words& one) { return one.text == "Histogram"; });
+  ASSERT_NE(title, words.end());
+  const std::string tip = tipAt({title->box.GetCenter().x, title->box.Max.y + 3 * ImGui::GetFontSize()});
+  EXPECT_THAT(tip, HasSubstr("Whiteat"));
+  EXPECT_TRUE(saysWhatItIs(tip)) << tip;
+}
+
 TEST_F(Tips, OfTheStatusLineSayUnitOrFormula) {
   const ImGuiWindow* status = ImGui::FindWindowByName("status");
   ASSERT_TRUE(status && status->Active);

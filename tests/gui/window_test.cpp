@@ -1,6 +1,8 @@
 // The real window on a screen of the test's own, with keys and mouse as a person has them.
 #include <gmock/gmock.h>
 
+#include <cstdlib>
+
 #include "export/image_files.h"
 #include "gui/support/screen.h"
 #include "render/display_modes.h"
@@ -107,6 +109,32 @@ TEST_F(Window, AnActionIsTypedIntoTheList) {
   }
   EXPECT_TRUE(written);
   EXPECT_EQ(run.folder().names(), std::set<std::string>{"typed.png"}) << "typed keys went to the scene too";
+  endsOn(run, "ctrl+q");
+}
+
+// Y and Z have changed places there, and + and - are elsewhere.
+TEST_F(Window, KeysAreThoseThatAreSeenOnTheKeyboard) {
+  ASSERT_EQ(std::system("setxkbmap de"), 0);
+  WindowRun run(kLongSolve);
+  const std::string paused = pausedScene(run);
+  run.key("plus");
+  EXPECT_TRUE(run.sceneChanges(paused)) << "no brighter";
+  run.key("minus");
+  EXPECT_TRUE(eventually([&] { return run.scene() == paused || HasFailure(); })) << "no darker";
+  // What the desktop takes for itself.
+  for (const char* chord : {"super+b", "alt+b", "super+plus"}) run.key(chord);
+  EXPECT_EQ(run.scene(), paused);
+  run.key("ctrl+p");
+  xdotool("sleep 0.5 type --delay 30 'reflectance red 0.9,0.9,0.9'");
+  run.key("Return");
+  EXPECT_TRUE(run.sceneChanges(paused)) << "no edit";
+  const std::string edited = run.sceneAtRest();
+  run.key("ctrl+z");
+  EXPECT_TRUE(run.sceneChanges(edited)) << "not undone";
+  const std::string undone = run.sceneAtRest();
+  run.key("ctrl+y");
+  EXPECT_TRUE(run.sceneChanges(undone)) << "not done again";
+  run.key("ctrl+z");  // nothing is left to be kept
   endsOn(run, "ctrl+q");
 }
 

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/parse.h"
 #include "viewer/actions/action_groups.h"
-#include "viewer/file_list.h"
+#include "viewer/file_kinds.h"
 
 namespace unshot {
 
@@ -68,21 +68,26 @@ std::string checkArgument(const Action& action, const std::string& argument) {
 }
 
 std::string_view actionOfFile(const std::filesystem::path& file) {
-  const std::string ending = lowered(file.extension().string());
-  for (const char* picture : {".png", ".hdr", ".pfm", ".jpg", ".jpeg"}) {
-    if (ending == picture) return "reference-picture";
-  }
-  return "open";
+  return isTaken(file) ? kindOfFile(file)->action : "open";
 }
 
 std::filesystem::path chosenFile(std::span<const char* const> files) {
-  const auto first = [&](auto&& fits) { return std::find_if(files.begin(), files.end(), fits); };
-  const auto isScene = [](const char* file) {
-    return lowered(std::filesystem::path(file).extension().string()) == ".obj";
-  };
-  auto found = first(isScene);
-  if (found == files.end()) found = first([](const char* file) { return actionOfFile(file) != "open"; });
+  auto found = std::find_if(files.begin(), files.end(), isScene);
+  if (found == files.end()) found = std::find_if(files.begin(), files.end(), isTaken);
   return found == files.end() ? files.front() : *found;
+}
+
+int keyOfActions(int key, const char* printed, bool ctrl) {
+  constexpr std::string_view kFlight = "WASDQE";
+  const bool flies = key > 0 && key < 128 && kFlight.find(static_cast<char>(key)) != std::string_view::npos;
+  if (ctrl ? key >= GLFW_KEY_0 && key <= GLFW_KEY_9 : flies) return key;
+  // Keys without a sign, and those of other alphabets, which have the Latin letters of their places too.
+  const std::string_view sign = printed ? printed : "";
+  if (sign.size() != 1) return key;
+  const char c = sign.front();
+  if (c >= 'a' && c <= 'z') return c - 'a' + GLFW_KEY_A;
+  if (c == '+' || c == '=') return GLFW_KEY_EQUAL;
+  return (c >= '0' && c <= '9') || c == '-' ? c : 0;
 }
 
 const Action* actionOfKey(int key, bool ctrl) {

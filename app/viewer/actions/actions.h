@@ -58,12 +58,18 @@ const Action& findAction(std::string_view key);
 /// What is wrong with an action's argument, or nothing.
 std::string checkArgument(const Action& action, const std::string& argument);
 
-/// The action for a file that was dropped on the window: pictures are compared with, all else is opened.
+/// The action for a file that was dropped on the window or chosen: `open`, which says what is wrong with it,
+/// where no other takes it.
 std::string_view actionOfFile(const std::filesystem::path& file);
 
-/// Of files that were dropped together, at least one: the first scene, else the first picture, else the
-/// first.
+/// Of files that were dropped together, at least one: the first scene, else the first that an action takes,
+/// else the first.
 std::filesystem::path chosenFile(std::span<const char* const> files);
+
+/// The key that actions go by, for one that is pressed: what is printed on it (GLFW's name of it, which may
+/// be null) wherever a keyboard has that. Keys of flying stay where they are, and with Ctrl so do those of
+/// digits, on which some keyboards have other signs. 0: none.
+int keyOfActions(int key, const char* printed, bool ctrl);
 
 /// The action that a key stands for, or null.
 const Action* actionOfKey(int key, bool ctrl);

@@ -4,13 +4,17 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "viewer/actions/action_arguments.h"
 #include "viewer/viewer.h"
 
 namespace unshot {
 namespace {
+
+constexpr double kHalfTurn = 180;  // degrees, which a drag over the height of the picture turns by
 
 void runCamera(Viewer& viewer, const std::string& text) {
   const std::vector<double> n = numbersOf(text);
@@ -29,6 +33,32 @@ void runProjection(Viewer& viewer, const std::string& text) {
   orthographic = text.empty() ? !orthographic : text == "orthographic";
   viewer.navigator().setOrthographic(orthographic);
   viewer.passingNotice(orthographic ? "orthographic" : "perspective");
+}
+
+/// So many numbers between commas, none of them larger than this.
+template <std::size_t count, int most>
+std::string checkNumbers(const std::string& text) {
+  const std::vector<double> n = numbersOf(text);
+  const bool fits =
+      n.size() == count && std::all_of(n.begin(), n.end(), [](double x) { return std::abs(x) <= most; });
+  return fits ? ""
+              : "'" + text + "' is not " + std::to_string(count) + " numbers from -" + std::to_string(most) +
+                    " to " + std::to_string(most);
+}
+
+// The scene follows the mouse, and so goes the other way than the camera: right, but up as rows go down.
+glm::dvec2 dragFor(const std::string& text) {
+  const std::vector<double> n = numbersOf(text);
+  return {-n[0], n[1]};
+}
+
+void runFly(Viewer& viewer, const std::string& text) {
+  const std::optional<Camera> camera = viewer.cameraInFile();
+  if (!camera) throw Error(ErrorKind::kUsage, "there is no scene to fly in yet", {}, "open a scene first");
+  const std::vector<double> n = numbersOf(text);
+  const ViewBasis basis = viewBasis(*camera);
+  const glm::dvec3 by = n[0] * basis.right + n[1] * basis.up + n[2] * basis.forward;
+  viewer.setCamera(camera->eye + by, camera->at + by, std::nullopt);
 }
 
 std::string checkProjection(const std::string& text) {
@@ -79,6 +109,34 @@ std::span<const Action> cameraActions() {
        {},
        runCamera,
        checkCamera,
+       true},
+      {"orbit",
+       "X,Y",
+       "Orbit around the point looked at, X degrees to the right and Y up",
+       {},
+       [](Viewer& v, const std::string& a) { v.navigator().orbit(dragFor(a), kHalfTurn); },
+       checkNumbers<2, 360>,
+       true},
+      {"pan",
+       "X,Y",
+       "Move sideways: X times the picture's height to the right, Y times up, where it is looked at",
+       {},
+       [](Viewer& v, const std::string& a) { v.navigator().pan(dragFor(a), 1); },
+       checkNumbers<2, 100>,
+       true},
+      {"zoom",
+       "N",
+       "Go to the point looked at by N notches of the wheel, or away from it",
+       {},
+       [](Viewer& v, const std::string& a) { v.navigator().zoom(*parseNumber(a)); },
+       checkNumbers<1, 100>,
+       true},
+      {"fly",
+       "X,Y,Z",
+       "Move by X to the right, Y up and Z ahead [m]",
+       {},
+       runFly,
+       checkNumbers<3, 1'000'000'000>,
        true},
       {"camera-preset",
        "NAME",

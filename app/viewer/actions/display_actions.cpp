@@ -103,7 +103,7 @@ std::span<const Action> displayActions() {
        true},
       {"reference-picture",
        "PATH",
-       "Lay a picture (PNG, HDR, PFM) of the present camera over the scene, to compare with",
+       "Lay a picture (PNG, JPEG, HDR, PFM) of the present camera over the scene, to compare with",
        {},
        [](Viewer& v, const std::string& a) { v.loadReferencePicture(a); }},
       {"forget-picture",

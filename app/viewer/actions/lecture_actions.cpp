@@ -4,7 +4,9 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "viewer/actions/action_arguments.h"
 #include "viewer/teaching.h"
@@ -20,6 +22,21 @@ std::string checkChannel(const std::string& text) {
     if (text == channel) return {};
   }
   return "'" + text + "' is neither red, green nor blue";
+}
+
+/// Row and column, from 1 on.
+std::string checkMatrixCell(const std::string& text) {
+  const std::vector<double> n = numbersOf(text);
+  const auto counts = [](double x) { return x >= 1 && x <= 1e6 && x == std::floor(x); };
+  const bool fits = text == "off" || (n.size() == 2 && std::all_of(n.begin(), n.end(), counts));
+  return fits ? "" : "'" + text + "' is no cell I,J of whole numbers from 1 on, nor off";
+}
+
+void runMatrixCell(Viewer& viewer, const std::string& text) {
+  const std::vector<double> n = numbersOf(text);
+  auto& cell = viewer.teaching().choices.cell;
+  if (n.empty()) return cell.reset();
+  cell = {static_cast<std::size_t>(n[0]) - 1, static_cast<std::size_t>(n[1]) - 1};
 }
 
 std::string checkFactor(const std::string& text) {
@@ -50,6 +67,15 @@ std::span<const Action> lectureActions() {
          v.teaching().choices.picture = findChoice(hemicubePictures(), a, "picture of a hemicube").colours;
        },
        [](const std::string& a) { return checkKey(hemicubePictures(), false, a); }},
+      {"hemicube-pixel",
+       "X,Y|off",
+       "Mark what is seen there in the hemicube, from 0,0 (left, top) to 1,1, as the mouse does",
+       {},
+       [](Viewer& v, const std::string& a) {
+         const std::vector<double> at = numbersOf(a);
+         v.teaching().choices.pixel = at.empty() ? std::nullopt : std::optional(glm::dvec2(at[0], at[1]));
+       },
+       [](const std::string& a) { return a == "off" ? std::string() : checkPlace(a); }},
       {"lecture",
        "[on|off]",
        "Show or hide the lecture: matrix, equation, single shots, effects",
@@ -77,6 +103,12 @@ std::span<const Action> lectureActions() {
        {},
        [](Viewer& v, const std::string& a) { setSwitch(v.teaching().choices.sums, a); },
        checkSwitch},
+      {"matrix-cell",
+       "I,J|off",
+       "Mark the cell in row I and column J of the lecture's matrix, from 1 on, as the mouse does",
+       {},
+       runMatrixCell,
+       checkMatrixCell},
       {"matrix-channel",
        "red|green|blue",
        "Whose reflectance is in the lecture's matrix",

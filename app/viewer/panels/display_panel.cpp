@@ -97,7 +97,7 @@ void histogram(Viewer& viewer) {
   if (toned) whiteLine(shown->placeOf(white), at, width, height);
   ImGui::Dummy({width, height + em});
   if (toned)
-    tooltip("White at " + figureText(white) +
+    tooltip("White at " + figureText(white) + " [W/m\u00b2, or the unit of what is shown]" +
             (shown->black > 0 ? "; black: " + percentText(shown->black) + " of the pixels" : ""));
 }
 
@@ -112,11 +112,15 @@ void lightChoices(Viewer& viewer) {
       "K: the light as it is shown now. The display \"Difference\" then shows how what is shown differs from "
       "it");
   ImGui::SameLine();
-  const auto& reference = settings.view.reference;
-  ImGui::BeginDisabled(!reference);
-  if (ImGui::Button("Forget")) viewer.perform("forget");
-  tooltip(reference ? "Compared with " + reference->name : "Compared with direct light alone");
-  ImGui::EndDisabled();
+  if (const auto reference = settings.view.reference) {  // by value: Forget drops it
+    if (ImGui::Button("Forget")) viewer.perform("forget");
+    tooltip("Compared with " + reference->name);
+  } else {
+    if (ImGui::Button("File \u2026##reference")) viewer.perform("browse");
+    tooltip(
+        "Compared with direct light alone. Ctrl+O: chooses a solution that unshot solve wrote (PLY). Or drop "
+        "one on the window");
+  }
   bool on = settings.view.light.indirect;
   if (ImGui::Checkbox("Radiosity", &on)) viewer.perform("radiosity", on ? "on" : "off");
   tooltip(
@@ -136,8 +140,10 @@ void lightChoices(Viewer& viewer) {
 
 void brightness(Viewer& viewer) {
   const DisplaySettings& settings = viewer.settings();
-  label("Tone curve",
-        "From exposed light to the display, where 1 is white. Pictures in files have the soft shoulder");
+  label(
+      "Tone curve",
+      "From exposed light to the display, where 1 is white. Screenshots have it too; unshot solve draws with "
+      "the soft shoulder");
   const std::string& tone = settings.view.tone;
   const DisplayMode& mode = displayMode(settings.view.display);
   const bool toned = mode.tone_mapped && !mode.false_colour;

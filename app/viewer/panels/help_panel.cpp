@@ -25,16 +25,25 @@ struct HelpGroup {
   std::vector<HelpRow> rows;
 };
 
-std::vector<HelpGroup> helpGroups() {
+/// Flight goes by the places of keys, whatever this keyboard has there.
+std::string flightKeys(const Viewer& viewer) {
+  std::string text = "W A S D, Q E";
+  for (char& c : text) {
+    if (c >= 'A') c = viewer.printedOn(c);
+  }
+  return text;
+}
+
+std::vector<HelpGroup> helpGroups(const Viewer& viewer) {
   std::vector<HelpGroup> groups{{"Mouse and flight",
                                  {{"Click", "What is there: light, element, plan"},
                                   {"Left drag", "Orbit around the point looked at"},
                                   {"Right drag", "Look around"},
                                   {"Middle drag", "Move sideways and up; also Shift+left drag"},
                                   {"Wheel", "To what is under the mouse, and away from it"},
-                                  {"W A S D, Q E", "Fly; down and up. Shift: faster"},
+                                  {flightKeys(viewer), "Fly; down and up. Shift: faster"},
                                   {"Right, wheel", "Speed of flight"},
-                                  {"Drop a file", "Open an OBJ scene"}}}};
+                                  {"Drop a file", "Open it, or compare with it"}}}};
   for (const ActionGroup& group : actionGroups()) {
     HelpGroup help{std::string(group.title), {}};
     for (const Action& action : group.actions) {
@@ -80,7 +89,7 @@ std::size_t firstColumn(const std::vector<HelpGroup>& groups, float width) {
 
 }  // namespace
 
-void buildHelp(float middle) {
+void buildHelp(const Viewer& viewer, float middle) {
   const ImGuiStyle& style = ImGui::GetStyle();
   const float size = ImGui::GetFontSize(), height = ImGui::GetIO().DisplaySize.y;
   const float room = 2 * middle - size - 2 * style.WindowPadding.x - style.ScrollbarSize;
@@ -93,7 +102,7 @@ void buildHelp(float middle) {
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
                    ImGuiWindowFlags_NoFocusOnAppearing);
-  const std::vector<HelpGroup> groups = helpGroups();
+  const std::vector<HelpGroup> groups = helpGroups(viewer);
   const std::size_t first = two ? firstColumn(groups, column) : groups.size();
   ImGui::BeginGroup();
   for (std::size_t k = 0; k < groups.size(); ++k) {

@@ -32,12 +32,17 @@ void choosePicture(Viewer& viewer, float width) {
   if (!key.empty()) viewer.perform("hemicube-picture", key);
 }
 
-/// What the pixel at (x, y) of the cross sees.
-void pixelTip(Viewer& viewer, std::uint32_t x, std::uint32_t y) {
+/// What the pixel at this place of the cross sees, in units of its side, and marks it; empty where there is
+/// no pixel.
+std::string pixelText(Viewer& viewer, const glm::dvec2& at) {
   Teaching& teaching = viewer.teaching();
   const HemicubeLook& look = *teaching.look();
-  const std::optional<std::size_t> pixel = crossPixel(look.layout, x, y);
-  if (!pixel) return;
+  const double size = crossSize(look.layout);
+  const auto place = [&](double where) {
+    return static_cast<std::uint32_t>(std::clamp(where * size, 0.0, size - 1));
+  };
+  const std::optional<std::size_t> pixel = crossPixel(look.layout, place(at.x), place(at.y));
+  if (!pixel) return {};
   const std::uint32_t patch = look.patchAt(*pixel);
   std::string text =
       patch == kNone ? "Nothing: what leaves here escapes" : "Patch " + patchText(*look.mesh, patch);
@@ -49,8 +54,8 @@ void pixelTip(Viewer& viewer, std::uint32_t x, std::uint32_t y) {
     const double solved = patch == kNone ? known->escape : static_cast<double>(known->sent[patch]);
     text += "\nThe solver's G_ij: " + channelText(solved);
   }
-  tooltip(text);
   if (patch != kNone) teaching.markPatch(patch, false, true);
+  return text;
 }
 
 void cross(Viewer& viewer, float side) {
@@ -62,13 +67,19 @@ void cross(Viewer& viewer, float side) {
   }
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::Image(textureId(*picture), {side, side});
-  if (!ImGui::IsItemHovered()) return;
-  const ImVec2 mouse = ImGui::GetMousePos();
-  const auto size = static_cast<float>(crossSize(teaching.look()->layout));
-  const auto pixel = [&](float where) {
-    return static_cast<std::uint32_t>(std::clamp(where / side * size, 0.0f, size - 1));
-  };
-  pixelTip(viewer, pixel(mouse.x - at.x), pixel(mouse.y - at.y));
+  if (!teaching.look()) return;
+  const double width = static_cast<double>(side);
+  if (ImGui::IsItemHovered()) {
+    const glm::dvec2 mouse(ImGui::GetMousePos().x - at.x, ImGui::GetMousePos().y - at.y);
+    tooltip(pixelText(viewer, mouse / width));
+  } else if (const auto& chosen = teaching.choices.pixel) {
+    const ImVec2 middle(at.x + static_cast<float>(chosen->x * width),
+                        at.y + static_cast<float>(chosen->y * width));
+    const float radius = 0.25f * ImGui::GetFontSize();
+    ImGui::GetWindowDrawList()->AddRect({middle.x - radius, middle.y - radius},
+                                        {middle.x + radius, middle.y + radius}, IM_COL32(255, 255, 255, 255));
+    if (const std::string text = pixelText(viewer, *chosen); !text.empty()) wrapped(text, side);
+  }
 }
 
 void sums(const Teaching& teaching, float side) {

@@ -65,9 +65,12 @@ std::string termText(std::size_t k, bool sums) {
   return out;
 }
 
-void cellTip(Viewer& viewer, const std::vector<double>& values, const std::string& name, std::size_t i,
-             std::size_t j) {
-  Teaching& teaching = viewer.teaching();
+using MatrixCell = std::pair<std::size_t, std::size_t>;  // row and column
+
+std::string cellText(const Viewer& viewer, const std::vector<double>& values, const std::string& name,
+                     const MatrixCell& cell) {
+  const auto [i, j] = cell;
+  const Teaching& teaching = viewer.teaching();
   const GatheredMatrix& m = *teaching.insight()->matrix;
   const Mesh& mesh = *viewer.state().snapshot->mesh;
   std::string text = "from j: " + groupText(m, mesh, j) + "\nto i: " + groupText(m, mesh, i) + "\n";
@@ -75,9 +78,19 @@ void cellTip(Viewer& viewer, const std::vector<double>& values, const std::strin
   text += "\nR_i = " + channelText(teaching.reflectance(i)) + ", G_ij = " + channelText(m.factor(i, j)) +
           ", R_i G_ij = " + channelText(teaching.transport(i, j));
   if (!m.groups[j].sends) text += "\nj holds no light: what it would send was not computed";
-  tooltip(text);
-  teaching.markGroup(static_cast<std::uint32_t>(j), true);
-  teaching.markGroup(static_cast<std::uint32_t>(i), false);
+  return text;
+}
+
+void markGroups(Teaching& teaching, const MatrixCell& cell) {
+  teaching.markGroup(static_cast<std::uint32_t>(cell.second), true);
+  teaching.markGroup(static_cast<std::uint32_t>(cell.first), false);
+}
+
+/// The one that an action has chosen, where the matrix has it.
+std::optional<MatrixCell> chosenCell(const Teaching& teaching) {
+  const std::size_t n = teaching.insight()->matrix->size();
+  const std::optional<MatrixCell>& cell = teaching.choices.cell;
+  return cell && cell->first < n && cell->second < n ? cell : std::nullopt;
 }
 
 /// A square of cells, `side` pixels wide.
@@ -96,16 +109,22 @@ void heatMap(Viewer& viewer, const char* id, const std::vector<double>& values, 
       list.AddRectFilled({edge(at.x, j), edge(at.y, i)}, {edge(at.x, j + 1), edge(at.y, i + 1)},
                          heatColour(values[i * n + j], most));
   }
-  if (!ImGui::IsItemHovered()) return;
+  const bool hovered = ImGui::IsItemHovered();
   const ImVec2 mouse = ImGui::GetMousePos();
-  const auto cell = [&](float from, float to) {
+  const auto under = [&](float from, float to) {
     return std::min(n - 1,
                     static_cast<std::size_t>(std::max(0.0f, (to - from) / side) * static_cast<float>(n)));
   };
-  const std::size_t j = cell(at.x, mouse.x), i = cell(at.y, mouse.y);
+  const std::optional<MatrixCell> cell =
+      hovered ? std::optional<MatrixCell>({under(at.y, mouse.y), under(at.x, mouse.x)})
+              : chosenCell(viewer.teaching());
+  if (!cell) return;
+  const auto [i, j] = *cell;
   list.AddRect({edge(at.x, j) - 1, edge(at.y, i) - 1}, {edge(at.x, j + 1) + 1, edge(at.y, i + 1) + 1},
                IM_COL32(255, 255, 255, 255));
-  cellTip(viewer, values, name, i, j);
+  if (!hovered) return;
+  tooltip(cellText(viewer, values, name, *cell));
+  markGroups(viewer.teaching(), *cell);
 }
 
 void legend(double most, float width) {
@@ -366,7 +385,12 @@ void matrixPage(Viewer& viewer) {
   map(viewer, "##M", series.power(1), "M = R G", side);
   if (beside) ImGui::SameLine(0, 2 * gap);
   const std::vector<double>& other = choices.sums ? series.sum(choices.power) : series.power(choices.power);
-  map(viewer, "##other", other, termText(choices.power, choices.sums), side);
+  const std::string name = termText(choices.power, choices.sums);
+  map(viewer, "##other", other, name, side);
+  if (const std::optional<MatrixCell> cell = chosenCell(teaching)) {
+    wrapped(cellText(viewer, other, name, *cell));
+    markGroups(teaching, *cell);
+  }
   radiusLine(viewer);
   terms(viewer);
   lightLine(viewer);

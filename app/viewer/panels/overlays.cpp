@@ -1,4 +1,6 @@
 // What lies over the scene: messages, what is being loaded, help and prompts.
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <vector>
 
@@ -92,9 +94,11 @@ void changedWindow(Viewer& viewer, float middle, float top) {
   ImGui::TextUnformatted("The scene changed on disk");
   ImGui::SameLine();
   if (ImGui::Button("Reload")) viewer.perform("reload");
-  tooltip("F5: reads its files again and solves it; the camera stays, changes of materials go");
+  tooltip(
+      "F5: reads its files again and solves it; the camera stays, changes of materials go into a new MTL "
+      "file");
   ImGui::SameLine();
-  if (ImGui::Button("Keep")) viewer.perform("dismiss");
+  if (ImGui::Button("Keep")) viewer.perform("keep-scene");
   tooltip("Esc: goes on with what was read before. The action watch off asks no more");
   ImGui::End();
 }
@@ -108,7 +112,7 @@ void lineOverScene(const char* id, const std::string& text, ImVec2 at, ImVec2 pi
 }
 
 /// Files that were written and the like, above the lower edge. Where they stay there is a button to close
-/// them.
+/// them; the text itself leaves the mouse to the scene.
 void noticeWindow(Viewer& viewer, const std::vector<std::string>& lines, const LowerEdge& edge) {
   const float middle = edge.sceneWidth() / 2, size = ImGui::GetFontSize();
   const float room = std::max(2 * middle, 12 * size) - 3 * size;
@@ -138,6 +142,9 @@ void noticeWindow(Viewer& viewer, const std::vector<std::string>& lines, const L
     ImGui::SameLine();
     if (ImGui::SmallButton("\u00d7")) viewer.perform("dismiss-notices");
     tooltip("Esc. All messages of late are under \"Messages\" in the panel");
+    const float text = ImGui::GetItemRectMin().x - ImGui::GetWindowPos().x;
+    ImGui::SetWindowHitTestHole(ImGui::GetCurrentWindow(), ImGui::GetWindowPos(),
+                                {text, ImGui::GetWindowHeight()});
   }
   ImGui::End();
 }
@@ -151,7 +158,7 @@ float belowNames(const Viewer& viewer) {
   return viewer.referencePicture() && !viewer.ui().picture_difference ? name : 0;
 }
 
-void buildOverlays(Viewer& viewer, const LowerEdge& edge, bool covered, bool notices, bool framing) {
+void buildOverlays(Viewer& viewer, const LowerEdge& edge, bool covered, bool notices, bool looks) {
   const float size = ImGui::GetFontSize();
   const float height = ImGui::GetIO().DisplaySize.y;
   const float middle = edge.sceneWidth() / 2;
@@ -163,7 +170,7 @@ void buildOverlays(Viewer& viewer, const LowerEdge& edge, bool covered, bool not
   }
   if (notices && tasksWindow(viewer, middle)) {
     // What else there is to say is said once it is done.
-  } else if (framing && state.facts) {
+  } else if (looks) {
     lineOverScene("framing", "looking for a good view \u2026", {middle, height / 2}, {0.5f, 0.5f});
   } else if (state.phase == SessionPhase::kEmpty) {
     lineOverScene("empty", "Drop an OBJ scene here, or Ctrl+O", {middle, height / 2}, {0.5f, 0.5f});
@@ -185,7 +192,7 @@ void buildOverlays(Viewer& viewer, const LowerEdge& edge, bool covered, bool not
     if (fits) errorWindow(viewer, text, middle);
     if (fits) top = below;
   } else if (viewer.ui().help) {
-    buildHelp(middle);
+    buildHelp(viewer, middle);
   }
   buildPrompt(viewer, middle, top);
   if (viewer.sceneChanged() && !viewer.error() && !prompt && state.phase != SessionPhase::kLoading)

@@ -17,7 +17,7 @@ void head(Viewer& viewer) {
   const SessionState& state = viewer.state();
   const PhaseLook look = phaseLook(state);
   dot(look.colour);
-  ImGui::TextUnformatted(look.text);
+  ImGui::TextUnformatted(look.text.c_str());
   if (state.facts && state.phase != SessionPhase::kLoading) {
     const std::string wrong = errorInFront(state);
     ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(wrong.c_str()).x);

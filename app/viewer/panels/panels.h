@@ -21,7 +21,8 @@ float belowNames(const Viewer& viewer);
 
 /// Messages, help and what is being loaded, over the scene and what stands along its lower edge. `covered`:
 /// the panel lies over the scene. Without `notices` what is under way is left out, and the lines that tell of
-/// files written and the like: of no use in a picture.
-void buildOverlays(Viewer& viewer, const LowerEdge& edge, bool covered, bool notices, bool framing);
+/// files written and the like: of no use in a picture. `looks`: a first camera is looked for, and has been
+/// for more than a moment.
+void buildOverlays(Viewer& viewer, const LowerEdge& edge, bool covered, bool notices, bool looks);
 
 }  // namespace unshot

@@ -132,7 +132,7 @@ bool probeHead(Viewer& viewer, std::size_t k) {
   ImGui::TextUnformatted(
       shortened(name, ImGui::GetContentRegionAvail().x - button - style.ItemSpacing.x).c_str());
   const glm::dvec3& normal = pinned.probe.normal;
-  tooltip(pinned.material + "\nat " + positionText(pinned.probe.position) + "\nfacing " +
+  tooltip(pinned.material + "\nat " + positionText(pinned.probe.position) + " [m]\nfacing " +
           positionText(normal));
   ImGui::SameLine(ImGui::GetContentRegionMax().x - button);
   const bool gone = ImGui::Button("\u00d7");

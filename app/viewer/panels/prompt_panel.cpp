@@ -59,7 +59,7 @@ int takeEvent(ImGuiInputTextCallbackData* data) {
   } else {
     if (typing.prompt.replacement)
       replaceText(*data, *std::exchange(typing.prompt.replacement, std::nullopt));
-    if (typing.prompt.kind == PromptKind::kScenes) followPath(*data, typing.prompt);
+    if (typing.prompt.kind == PromptKind::kFiles) followPath(*data, typing.prompt);
   }
   return 0;
 }
@@ -176,7 +176,7 @@ void actionsPrompt(Viewer& viewer, float height) {
   if (wanted) enterAction(viewer, *found[*wanted], typed.argument);
 }
 
-// Scenes.
+// Files.
 
 /// As many of the last folders as there is room for.
 std::string endOf(const std::filesystem::path& path, float width) {
@@ -189,7 +189,7 @@ std::string endOf(const std::filesystem::path& path, float width) {
   return text;
 }
 
-void enterScene(Viewer& viewer, const FileList::Entry& entry) {
+void enterFile(Viewer& viewer, const FileList::Entry& entry) {
   Prompt& prompt = viewer.ui().prompt;
   const std::filesystem::path path = prompt.files.pathOf(entry);
   if (entry.folder) {
@@ -201,13 +201,13 @@ void enterScene(Viewer& viewer, const FileList::Entry& entry) {
   }
   prompt.close();
   viewer.memory().keepSetting("folder", prompt.files.folder().string());
-  viewer.perform("open", path.string());
+  viewer.perform(actionOfFile(path), path.string());
 }
 
-void scenesPrompt(Viewer& viewer, float height) {
+void filesPrompt(Viewer& viewer, float height) {
   Prompt& prompt = viewer.ui().prompt;
   ImGui::TextDisabled("%s", endOf(prompt.files.folder(), ImGui::GetContentRegionMax().x).c_str());
-  const Entered entered = typeLine(prompt, "Name of a scene or folder, or a path");
+  const Entered entered = typeLine(prompt, "Name of a file or folder, or a path");
   if (entered == Entered::kEscape) return prompt.close();
   const std::string text = prompt.text.data();
   if (entered == Entered::kTab) prompt.replacement = prompt.files.completed(text);
@@ -217,7 +217,7 @@ void scenesPrompt(Viewer& viewer, float height) {
   if (entered == Entered::kEnter) {
     prompt.replacement = text;
     if (found.empty()) {
-      prompt.wrong = "There is no scene or folder '" + text + "' here";
+      prompt.wrong = "No folder here, and no file to open, has '" + text + "' in its name";
     } else {
       wanted = prompt.chosen;
     }
@@ -230,7 +230,7 @@ void scenesPrompt(Viewer& viewer, float height) {
   if (found.empty()) ImGui::TextDisabled("nothing");
   ImGui::EndChild();
   below(prompt, "Enter opens, Tab completes, Esc closes");
-  if (wanted) attempt(prompt, [&] { enterScene(viewer, found[*wanted]); });
+  if (wanted) attempt(prompt, [&] { enterFile(viewer, found[*wanted]); });
 }
 
 /// The line, the path or nothing above it, two lines of help below.
@@ -255,7 +255,7 @@ void buildPrompt(Viewer& viewer, float middle, float top) {
   ImGui::SetNextWindowBgAlpha(0.97f);
   ImGui::Begin("prompt", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
-  prompt.kind == PromptKind::kActions ? actionsPrompt(viewer, height) : scenesPrompt(viewer, height);
+  prompt.kind == PromptKind::kActions ? actionsPrompt(viewer, height) : filesPrompt(viewer, height);
   ImGui::End();
 }
 

@@ -79,6 +79,7 @@ void figure(const ReferencePicture& picture, bool difference, LowerEdge& edge) {
   const float left = width - content - 2 * ImGui::GetStyle().WindowPadding.x - 2 * gap;
   const float bottom = edge.above(left, width);
   ImGui::SetNextWindowPos({width - gap, bottom - gap}, ImGuiCond_Always, {1, 1});
+  ImGui::SetNextWindowContentSize({content, 0});  // of this frame: by itself it follows one frame later
   ImGui::SetNextWindowBgAlpha(0.85f);
   ImGui::Begin("reference picture", nullptr, kOver | ImGuiWindowFlags_AlwaysAutoResize);
   if (difference) differenceScale("Unshot \u2212 " + picture.name(), "of white", width);
@@ -92,8 +93,14 @@ void figure(const ReferencePicture& picture, bool difference, LowerEdge& edge) {
 
 void referencePictureChoices(Viewer& viewer) {
   const ReferencePicture* picture = viewer.referencePicture();
-  if (!picture) return;
   label("Compare", kErrorTip);
+  if (!picture) {
+    if (ImGui::Button("Picture \u2026")) viewer.perform("browse");
+    return tooltip(
+        "Ctrl+O: chooses a picture (PNG, JPEG, HDR, PFM) of the present camera that is laid over the scene. "
+        "Or "
+        "drop one on the window");
+  }
   bool difference = viewer.ui().picture_difference;
   if (ImGui::Checkbox("Difference##picture", &difference))
     viewer.perform("picture-difference", difference ? "on" : "off");

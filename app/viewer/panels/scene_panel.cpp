@@ -38,7 +38,8 @@ void sceneRows(Viewer& viewer) {
   for (const std::filesystem::path& scene : recent) sceneRow(viewer, scene);
   ImGui::Separator();
   if (ImGui::Selectable("Browse \u2026")) viewer.perform("browse");
-  tooltip("Ctrl+O: looks for an OBJ file. Or drop one on the window");
+  tooltip(
+      "Ctrl+O: looks for an OBJ file, or a saved solve (.unshot) of this scene. Or drop one on the window");
 }
 
 void chooseSky(Viewer& viewer) {

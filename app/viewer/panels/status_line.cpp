@@ -19,7 +19,14 @@ namespace {
 
 constexpr float kLineHeight = 1.5f;  // in letters' heights
 constexpr float kGapOfParts = 1.1f;  // between two parts, the same
-constexpr const char* kWidestPhase = "Refining form factors";
+constexpr std::array<const char*, 4> kWidePhases = {"Refining form factors", "Converged, estimating",
+                                                    "Assembling the matrix", "Bounding the spectrum"};
+
+float widestPhase() {
+  float width = 0;
+  for (const char* phase : kWidePhases) width = std::max(width, ImGui::CalcTextSize(phase).x);
+  return width;
+}
 
 /// A part of the line. `widest` is the longest text that it usually has: so much room is kept for it, so that
 /// nothing moves when a figure gets longer or shorter.
@@ -34,6 +41,11 @@ std::string frameText(double milliseconds) {
   if (milliseconds < 0.05) return {};
   char text[32];
   std::snprintf(text, sizeof text, milliseconds < 99.95 ? "%.1f ms" : "%.0f ms", milliseconds);
+  return text;
+}
+
+std::string capitalised(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
   return text;
 }
 
@@ -77,12 +89,15 @@ PhaseLook phaseLook(const SessionState& state) {
     case SessionPhase::kRunning:
       if (state.facts && state.measures.solverBound() <= state.facts->solver_target)
         return {state.measures.drafts > 0 ? "Refining form factors" : "Sharpening", {0.98f, 0.72f, 0.25f, 1}};
-      return {"Shooting", {0.98f, 0.72f, 0.25f, 1}};
+      return {state.activity.empty() ? "Shooting" : capitalised(state.activity), {0.98f, 0.72f, 0.25f, 1}};
     case SessionPhase::kPaused:
       return {"Paused", {0.6f, 0.7f, 0.85f, 1}};
     case SessionPhase::kConverged:
       if (state.stopped_by == "no light") return {"No light", {0.85f, 0.75f, 0.5f, 1}};
-      return {"Converged", {0.5f, 0.85f, 0.5f, 1}};
+      // What the solve shows is as it will be; how wrong it is gets better known.
+      return {state.spareWork() && !state.bounces_under_way && !state.gathering ? "Converged, estimating"
+                                                                                : "Converged",
+              {0.5f, 0.85f, 0.5f, 1}};
     case SessionPhase::kStopped:
       return {"Limit reached", {0.85f, 0.75f, 0.5f, 1}};
     case SessionPhase::kFailed:
@@ -104,6 +119,19 @@ std::string missingPanel(const Viewer& viewer, float room) {
   return shortened("Tab: the panel", room);
 }
 
+/// How far the solve is, along the upper edge of the window.
+void progressLine(const SessionState& state) {
+  if (state.phase != SessionPhase::kRunning) return;
+  const ImVec2 at = ImGui::GetWindowPos();
+  const float thick = std::max(1.0f, std::round(0.13f * ImGui::GetFontSize()));
+  const auto width = static_cast<float>(state.progress) * ImGui::GetWindowWidth();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.PushClipRectFullScreen();  // to the corner, beside which text keeps a distance
+  list.AddRectFilled(at, {at.x + std::round(width), at.y + thick},
+                     ImGui::GetColorU32(phaseLook(state).colour));
+  list.PopClipRect();
+}
+
 void missingPanelTip(const Viewer& viewer) {
   tooltip(
       "Beside the scene the panel takes a window of " +
@@ -117,10 +145,10 @@ void missingPanelTip(const Viewer& viewer) {
 float buildStatusLine(Viewer& viewer, int scene_width) {
   if (!viewer.ui().panel || !viewer.ui().status) return 0;
   const float em = ImGui::GetFontSize(), height = std::round(kLineHeight * em);
-  const float phase = 0.7f * em + 0.8f * em + ImGui::CalcTextSize(kWidestPhase).x;
+  const float phase = 0.7f * em + 0.8f * em + widestPhase();
   const bool cramped = static_cast<float>(scene_width) < phase + 0.7f * em;
   const PhaseLook look = phaseLook(viewer.state());
-  const float shown = cramped ? 0 : (0.8f + kGapOfParts) * em + ImGui::CalcTextSize(look.text).x;
+  const float shown = cramped ? 0 : (0.8f + kGapOfParts) * em + ImGui::CalcTextSize(look.text.c_str()).x;
   const std::string no_panel = missingPanel(viewer, static_cast<float>(scene_width) - 1.5f * em - shown);
   if (cramped && no_panel.empty()) return 0;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
@@ -136,10 +164,11 @@ float buildStatusLine(Viewer& viewer, int scene_width) {
                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoBringToFrontOnFocus |
                    ImGuiWindowFlags_NoScrollWithMouse);
   const float end = static_cast<float>(scene_width) - 0.7f * em;
+  progressLine(viewer.state());
   if (!cramped) {
     dot(look.colour);
-    ImGui::TextUnformatted(look.text);
-    tooltip("What the solve is doing. Tab hides this line with the panel");
+    ImGui::TextUnformatted(look.text.c_str());
+    tooltip("What the solve is doing; the line above is how far it is. Tab hides both with the panel");
   }
   float at = phase + kGapOfParts * em;
   if (!no_panel.empty()) {

@@ -3,13 +3,15 @@
 
 #include <imgui.h>
 
+#include <string>
+
 #include "viewer/viewer.h"
 
 namespace unshot {
 
 /// What the solve is doing, in a word, and the colour that stands for it.
 struct PhaseLook {
-  const char* text;
+  std::string text;
   ImVec4 colour;
 };
 PhaseLook phaseLook(const SessionState& state);
