@@ -58,7 +58,7 @@ class EveryControl : public testing::Test {
     EXPECT_FALSE(live_->error()) << live_->error()->fullText();
     if (live_->error()) act("dismiss");
     const ImVec2 screen(static_cast<float>(live_.width()), static_cast<float>(live_.height()));
-    std::vector<std::string> problems = LayoutCheck(screen).problems();
+    std::set<std::string> problems = LayoutCheck(screen).problems();
     if (!problems.empty()) {  // a window is as large as a text that has just come from the next frame on
       mouse_.frames(2);
       problems = LayoutCheck(screen).problems();
