@@ -64,7 +64,7 @@ double Viewer::nextFrame(double now) const {
 double Viewer::nextPaint() const {
   const bool poses = screenshots_.posing() && (!screenshots_.panelsStand() || screenshotStands());
   if (gui_frames_ == 0 && !poses && !navigator_.moving()) {
-    const bool waits = waitsForFiles() || looksForView() || scene_.waitingSince() || state_->saving ||
+    const bool waits = waitsForFiles() || looksForView() || scene_.waits(wanted()) || state_->saving ||
                        state_->editing || state_->phase == SessionPhase::kLoading ||
                        teaching_->preparing().has_value();
     return std::min(waits ? last_frame_ + kProgressSeconds : kNever, nextMeasure());

@@ -28,7 +28,7 @@ std::vector<Task> Viewer::tasks() {
   if (scene_.framing())
     out.push_back({"looking for a good view", scene_.framingDone(), "the best view so far",
                    [this] { scene_.hurryFraming(); }, view_wanted_at_});
-  if (const auto since = scene_.waitingSince()) {
+  if (const auto since = scene_.waitingSince(); since && scene_.waits(wanted())) {
     const bool edges = displayMode(ui_.settings.view.display).edges;
     out.push_back({edges ? "finding edges" : "colouring patches", std::nullopt, "the display before stays",
                    [this] { giveUpDisplay(); }, *since});

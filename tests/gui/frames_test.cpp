@@ -88,7 +88,7 @@ TEST_F(ViewerFrames, EdgesAreFoundBesideTheWindow) {
       longest = std::max(longest, wallSeconds() - from);
       if (!busy) live_.rest(0.01);
     }
-    EXPECT_TRUE(told);
+    EXPECT_TRUE(told || display == std::string("patches")) << "their colours take less time";
     EXPECT_LT(longest, alone / 2);
     EXPECT_EQ(live_->ui().settings.view.display, display);
     EXPECT_FALSE(live_->error());
@@ -105,6 +105,12 @@ TEST_F(ViewerFrames, EdgesThatAreGivenUpLeaveTheDisplayBefore) {
   EXPECT_TRUE(live_->tasks().empty());
   EXPECT_TRUE(live_.until([this] { return live_->nextFrame(0) > 1e30; }));
   EXPECT_GT(live_.painted(), painted) << "not said";
+  // Another display takes them back too.
+  live_->perform("display", "mesh");
+  ASSERT_TRUE(live_.until([this] { return !live_->tasks().empty(); }));
+  live_->perform("display", "radiosity");
+  EXPECT_TRUE(live_->tasks().empty());
+  EXPECT_TRUE(live_.until([this] { return live_->nextFrame(0) > 1e30; }, 20));
   live_->perform("display", "mesh");
   EXPECT_TRUE(live_.until([this] { return live_->nextFrame(0) > 1e30; }));
   EXPECT_EQ(live_->ui().settings.view.display, "mesh");
