@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <limits>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -159,7 +160,7 @@ class Scanner {
 
   void face(std::string_view rest) {
     rest = rest.substr(0, rest.find('#'));
-    ObjFace face{0, line_, material_, smoothing_};
+    ObjFace face{0, line_, materialOfFace(), smoothing_};
     scan_.plain.append(1, 'f');
     for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) {
       corner(word);
@@ -230,11 +231,21 @@ class Scanner {
          "negative indices count back from the face's line");
   }
 
+  // What no face uses counts for nothing.
   void useMaterial(std::string_view name) {
-    const auto [place, fresh] = material_index_.try_emplace(
-        std::string(name), static_cast<std::uint32_t>(scan_.material_names.size()));
-    if (fresh) scan_.material_names.push_back({std::string(name), line_});
-    material_ = place->second;
+    named_ = name;
+    named_line_ = line_;
+  }
+
+  std::uint32_t materialOfFace() {
+    if (named_) {
+      const auto [place, fresh] = material_index_.try_emplace(
+          std::string(*named_), static_cast<std::uint32_t>(scan_.material_names.size()));
+      if (fresh) scan_.material_names.push_back({std::string(*named_), named_line_});
+      material_ = place->second;
+      named_.reset();
+    }
+    return material_;
   }
 
   void smoothing(std::string_view rest) {
@@ -251,7 +262,9 @@ class Scanner {
   ObjScan scan_;
   std::uint32_t line_ = 0;
   std::size_t statements_ = 0;
-  std::uint32_t material_ = kNone;
+  std::uint32_t material_ = kNone;         // of the last face
+  std::optional<std::string_view> named_;  // since then
+  std::uint32_t named_line_ = 0;
   std::uint32_t smoothing_ = 0;
   std::size_t texture_count_ = 0;
   std::vector<std::pair<std::size_t, std::uint32_t>> texture_ahead_;  // index and line: not there so far

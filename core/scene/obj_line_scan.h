@@ -31,8 +31,8 @@ struct ObjScan {
   /// Only `v x y z`, `vn x y z` and `f v v v` or `f v//n`; numbers are finite or overflow to infinity.
   std::string plain;
   std::vector<ObjFace> faces;
-  std::vector<ObjName> material_names;
-  std::vector<ObjName> libraries;  ///< what follows each mtllib, uncut
+  std::vector<ObjName> material_names;  ///< of materials that some face has
+  std::vector<ObjName> libraries;       ///< what follows each mtllib, uncut
   std::size_t vertex_count = 0;
   std::size_t normal_count = 0;
   std::size_t texture_count = 0;

@@ -29,7 +29,7 @@ std::vector<glm::dvec3> added(std::vector<glm::dvec3> a, const std::vector<glm::
 }
 
 // What is seen is geometry: found in the first round, it serves the second, whose light is another. Elements
-// are taken apart as the first round's light asks for, which makes a difference of kNegligible at most.
+// are taken apart as the first round's light asks for, which makes little difference.
 TEST(LocalPass, GoesOnWithWhatItHasSeen) {
   const auto solve = solved(publishedCornellBox(), soonest(0.08));
   const Mesh& mesh = solve->mesh();
@@ -44,8 +44,10 @@ TEST(LocalPass, GoesOnWithWhatItHasSeen) {
   }
   RadiosityState state(transport, emission, reflectance);
   for (int round = 0; round < 3; ++round) {
-    for (std::uint32_t q = 0; q < mesh.patch_count; ++q)
-      state.shoot(q, state.unshot()[q], transport.column(q));
+    for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
+      const glm::dvec3 all = state.unshot()[q];
+      state.shoot(q, all, transport.column(q));
+    }
   }
   const auto run = [&](LocalPass& pass, const std::vector<glm::dvec3>& irradiance) {
     pass.begin(state, makeField(mesh, transport.receivers(), irradiance));

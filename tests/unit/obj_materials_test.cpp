@@ -28,6 +28,16 @@ TEST_F(ObjMaterials, ReadsReflectanceAndEmission) {
   EXPECT_TRUE(scene.diagnostics.empty());
 }
 
+TEST_F(ObjMaterials, ReadsNothingOfThoseThatNoFaceHas) {
+  write("a.mtl", "newmtl a\nKd .1 .1 .1\nnewmtl b\nKd 1 1 1\nmap_Kd gone.png\n");
+  const Scene scene = read("mtllib a.mtl\n" + std::string(kFourVertices) +
+                           "usemtl b\nusemtl a\nf 1 2 3\nf 1 2 4\nusemtl nowhere\n");
+  ASSERT_EQ(scene.materials.size(), 1u);
+  EXPECT_EQ(scene.materials[0].name, "a");
+  ASSERT_EQ(scene.diagnostics.size(), 1u);
+  EXPECT_EQ(scene.diagnostics[0].code, "no-light");
+}
+
 TEST_F(ObjMaterials, ReadsSeveralLibrariesOnSeveralLinesAndOnOne) {
   write("a.mtl", "newmtl a\nKd .1 .1 .1\n");
   write("b.mtl", "newmtl b\nKd .2 .2 .2\n");
