@@ -41,6 +41,7 @@ constexpr double kFew = 40;
 bool liesOn(const Mesh& mesh, const Surface& surface, const ContactSegment& line, double near) {
   const double length = glm::distance(line.a, line.b);
   if (length <= kFew * near) return true;
+  double covered = 0;  // over all polygons: each may hold but a short piece
   for (std::uint32_t t = surface.triangles.first; t < surface.triangles.end(); ++t) {
     double first = 0, last = 1;  // of the way from a to b
     for (int k = 0; k < 3 && first < last; ++k) {
@@ -54,7 +55,8 @@ bool liesOn(const Mesh& mesh, const Surface& surface, const ContactSegment& line
       if (a < 0 && b >= 0) first = std::max(first, a / (a - b));
       if (a >= 0 && b < 0) last = std::min(last, a / (a - b));
     }
-    if ((last - first) * length > kFew * near) return true;
+    covered += std::max(last - first, 0.0) * length;
+    if (covered > kFew * near) return true;
   }
   return false;
 }

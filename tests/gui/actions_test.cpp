@@ -11,12 +11,12 @@
 #include "export/ply.h"
 #include "formfactor/methods.h"
 #include "gui/support/gui_layout.h"
+#include "gui/support/own_folder.h"
 #include "gui/support/valid_arguments.h"
 #include "render/display_modes.h"
 #include "solver/modes.h"
 #include "support/assets.h"
 #include "support/live_viewer.h"
-#include "support/temp_folder.h"
 #include "viewer/file_kinds.h"
 
 namespace unshot {
@@ -27,7 +27,6 @@ using testing_support::asset;
 using testing_support::kCornellBox;
 using testing_support::kTwoPatches;
 using testing_support::LiveViewer;
-using testing_support::TempFolder;
 using testing_support::validArguments;
 
 TEST(Actions, KeysAndShortcutsAreUnique) {
@@ -196,15 +195,7 @@ void performAndSettle(LiveViewer& live, const Action& action, const std::string&
   }));
 }
 
-class EveryAction : public testing::Test {
- protected:
-  EveryAction() : before_(std::filesystem::current_path()) { std::filesystem::current_path(folder_.path()); }
-  ~EveryAction() override { std::filesystem::current_path(before_); }
-  TempFolder folder_;
-
- private:
-  std::filesystem::path before_;
-};
+using EveryAction = testing_support::InOwnFolder;
 
 TEST_F(EveryAction, PerformsOnALiveViewer) {
   LiveViewer live(boxToActOn());

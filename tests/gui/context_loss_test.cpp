@@ -1,24 +1,20 @@
 // A driver that is reset: no software renderer here does that, so its answer is put in its place.
 #include <gmock/gmock.h>
 
+#include "gui/support/own_folder.h"
 #include "session/saved_solve.h"
 #include "support/live_viewer.h"
-#include "support/temp_folder.h"
 
 namespace unshot {
 namespace {
 
 using testing::HasSubstr;
 using testing_support::LiveViewer;
-using testing_support::TempFolder;
 
 constexpr GLenum kLost = 0x0507;  // GL_CONTEXT_LOST
 
-class ContextLoss : public testing::Test {
+class ContextLoss : public testing_support::InOwnFolder {
  protected:
-  ContextLoss() : before_(std::filesystem::current_path()) { std::filesystem::current_path(folder_.path()); }
-  ~ContextLoss() override { std::filesystem::current_path(before_); }
-
   static LiveViewer::Options cornellBox() {
     LiveViewer::Options options;
     options.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
@@ -27,11 +23,6 @@ class ContextLoss : public testing::Test {
     options.solve.error = 1e-6;
     return options;
   }
-
-  TempFolder folder_;
-
- private:
-  std::filesystem::path before_;
 };
 
 /// From now on the driver answers that it was reset.

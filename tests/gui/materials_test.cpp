@@ -4,9 +4,9 @@
 
 #include <set>
 
+#include "gui/support/own_folder.h"
 #include "scene/obj_reader.h"
 #include "support/live_viewer.h"
-#include "support/temp_folder.h"
 #include "viewer/panels/materials_panel.h"
 
 namespace unshot {
@@ -14,7 +14,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing_support::LiveViewer;
-using testing_support::TempFolder;
 
 LiveViewer::Options boxToEdit(const std::string& script = {}) {
   LiveViewer::Options options;
@@ -45,16 +44,7 @@ double meanIrradiance(LiveViewer& live) {
   return sum / static_cast<double>(live->state().snapshot->irradiance.size());
 }
 
-/// In a folder of its own, for what is written without a name.
-class Materials : public testing::Test {
- protected:
-  Materials() : before_(std::filesystem::current_path()) { std::filesystem::current_path(folder_.path()); }
-  ~Materials() override { std::filesystem::current_path(before_); }
-  TempFolder folder_;
-
- private:
-  std::filesystem::path before_;
-};
+using Materials = testing_support::InOwnFolder;
 
 TEST_F(Materials, ActionsChangeThemWhileTheSolveGoesOn) {
   LiveViewer live(boxToEdit("wait converged\nreflectance red 0.1,0.2,0.7\nemission light 34,24,8\n"));
