@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <vector>
 
 #include "base/clock.h"
@@ -22,33 +23,78 @@ std::string adviceWithoutWindow(const std::filesystem::path& scene) {
          " --png picture.png";
 }
 
-/// Keys that went down since the last frame. ImGui looks at keys once a frame, and would miss one that is up
-/// again by then.
-class PressedKeys {
+/// A key, or a letter that it types, as the window system sent it.
+struct KeyEvent {
+  int key = GLFW_KEY_UNKNOWN, scancode = 0, action = GLFW_RELEASE, mods = 0;
+  unsigned letter = 0;  // one that is typed, 0: a key
+};
+
+/// What is typed, in its order, to the frames that it is for. After a key that opens or ends a line of text
+/// the others wait until the frames know who has the keyboard, however slow they are.
+class Keys {
  public:
-  void note(int key) {
-    if (key >= 0 && key < IM_ARRAYSIZE(ImGuiIO::KeysDown)) keys_.push_back(key);
+  Keys(Viewer& viewer, GLFWwindow* window) : viewer_(viewer), window_(window) {}
+
+  void add(const KeyEvent& event) {
+    events_.push_back(event);
+    viewer_.input();
   }
-  void beforeFrame() const {
-    set([](int) { return true; });
+  void beforeFrame() {
+    if (waits_ > 0) --waits_;
+    while (waits_ == 0 && !events_.empty()) {
+      const KeyEvent event = events_.front();
+      events_.pop_front();
+      if (event.letter == 0) {
+        press(event);
+      } else {
+        ImGui_ImplGlfw_CharCallback(window_, event.letter);
+      }
+    }
+    for (const int key : pressed_) ImGui::GetIO().KeysDown[key] = true;
   }
-  void afterFrame(GLFWwindow* window) {
-    set([&](int key) { return glfwGetKey(window, key) == GLFW_PRESS; });
-    keys_.clear();
+  void afterFrame() {
+    for (const int key : pressed_) ImGui::GetIO().KeysDown[key] = glfwGetKey(window_, key) == GLFW_PRESS;
+    pressed_.clear();
+    if (!events_.empty()) viewer_.input();
   }
 
  private:
-  template <class F>
-  void set(F&& isDown) const {
-    for (const int key : keys_) ImGui::GetIO().KeysDown[key] = isDown(key);
+  static constexpr int kFramesToSettle = 3;  // ImGui gives the keyboard to a line in its second frame
+
+  void press(const KeyEvent& event) {
+    ImGui_ImplGlfw_KeyCallback(window_, event.key, event.scancode, event.action, event.mods);
+    if (event.action != GLFW_PRESS) return;
+    // ImGui looks at keys once a frame, and would miss one that is up again by then.
+    if (event.key >= 0 && event.key < IM_ARRAYSIZE(ImGuiIO::KeysDown)) pressed_.push_back(event.key);
+    if (ImGui::GetIO().WantTextInput) {
+      const bool ends =
+          event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER || event.key == GLFW_KEY_ESCAPE;
+      if (ends) waits_ = kFramesToSettle;
+      return;
+    }
+    constexpr int kOfTheDesktop = GLFW_MOD_ALT | GLFW_MOD_SUPER;
+    if ((event.mods & kOfTheDesktop) != 0) return;
+    // On most keyboards + is Shift and another key, so only Ctrl tells shortcuts apart.
+    const bool ctrl = (event.mods & GLFW_MOD_CONTROL) != 0;
+    const bool typing = viewer_.ui().prompt.open();
+    viewer_.key(keyOfActions(event.key, glfwGetKeyName(event.key, event.scancode), ctrl), ctrl);
+    if (viewer_.ui().prompt.open() == typing) return;
+    waits_ = kFramesToSettle;
+    // The letter of the key that opens the line is not for it.
+    if (!events_.empty() && events_.front().letter != 0) events_.pop_front();
   }
-  std::vector<int> keys_;
+
+  Viewer& viewer_;
+  GLFWwindow* window_;
+  std::deque<KeyEvent> events_;
+  std::vector<int> pressed_;  // since the last frame
+  int waits_ = 0;             // frames
 };
 
 /// What the window's callbacks are for.
 struct Receiver {
   Viewer& viewer;
-  PressedKeys keys;
+  Keys keys;
 };
 
 Receiver& receiverOf(GLFWwindow* window) { return *static_cast<Receiver*>(glfwGetWindowUserPointer(window)); }
@@ -56,16 +102,6 @@ Receiver& receiverOf(GLFWwindow* window) { return *static_cast<Receiver*>(glfwGe
 Viewer& viewerOf(GLFWwindow* window) { return receiverOf(window).viewer; }
 
 void setCallbacks(GLFWwindow* window) {
-  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
-    Viewer& viewer = viewerOf(w);
-    viewer.input();
-    if (action == GLFW_PRESS) receiverOf(w).keys.note(key);
-    constexpr int kOfTheDesktop = GLFW_MOD_ALT | GLFW_MOD_SUPER;
-    if (action != GLFW_PRESS || ImGui::GetIO().WantTextInput || (mods & kOfTheDesktop) != 0) return;
-    // On most keyboards + is Shift and another key, so only Ctrl tells shortcuts apart.
-    const bool ctrl = (mods & GLFW_MOD_CONTROL) != 0;
-    viewer.key(keyOfActions(key, glfwGetKeyName(key, scancode), ctrl), ctrl);
-  });
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double, double) { viewerOf(w).input(); });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int, int, int) { viewerOf(w).input(); });
   glfwSetScrollCallback(window, [](GLFWwindow* w, double, double) { viewerOf(w).input(); });
@@ -82,9 +118,16 @@ void setCallbacks(GLFWwindow* window) {
 }
 
 /// ImGui's inputs from the window, for as long as it lives. Installed after setCallbacks, whose callbacks it
-/// calls.
+/// calls; keys come to it by way of Keys.
 struct GuiInput {
-  explicit GuiInput(GLFWwindow* window) { ImGui_ImplGlfw_InitForOther(window, true); }
+  explicit GuiInput(GLFWwindow* window) {
+    ImGui_ImplGlfw_InitForOther(window, true);
+    glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
+      receiverOf(w).keys.add({key, scancode, action, mods});
+    });
+    glfwSetCharCallback(window,
+                        [](GLFWwindow* w, unsigned letter) { receiverOf(w).keys.add({.letter = letter}); });
+  }
   ~GuiInput() { ImGui_ImplGlfw_Shutdown(); }
   GuiInput(const GuiInput&) = delete;
   GuiInput& operator=(const GuiInput&) = delete;
@@ -128,10 +171,10 @@ void runLoop(Receiver& receiver, GLFWwindow* window) {
     int width = 0, height = 0;
     glfwGetFramebufferSize(window, &width, &height);
     if (width <= 0 || height <= 0 || viewer.nextFrame(now) > now || !viewer.prepare()) continue;
-    ImGui_ImplGlfw_NewFrame();
     receiver.keys.beforeFrame();
+    ImGui_ImplGlfw_NewFrame();
     const bool changed = viewer.draw(0, width, height);
-    receiver.keys.afterFrame(window);
+    receiver.keys.afterFrame();
     if (!changed) continue;
     glfwSwapBuffers(window);
     viewer.presented();
@@ -165,7 +208,7 @@ int runWindow(ViewerSetup setup, const WindowOptions& wanted) {
     int code = 0;
     {
       Viewer viewer(std::move(setup));
-      Receiver receiver{viewer, {}};
+      Receiver receiver{viewer, {viewer, window}};
       glfwSetWindowUserPointer(window, &receiver);
       setCallbacks(window);
       const GuiInput input(window);
