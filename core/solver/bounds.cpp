@@ -13,16 +13,19 @@ namespace {
 // Products with the matrix in one refresh.
 constexpr int kProductsAtOnce = 4, kPowerSteps = 3;
 // Partial sums of (I - M)^-1 1 that are tried for a positive v - M v.
-constexpr int kMostSums = 200;
+constexpr int kMostSums = 200, kMostSumsOnTheWay = 20;
+// What unknown columns send lies so much above what known ones do, that the weights need not be found anew
+// for each that is a little higher.
+constexpr double kSentMargin = 1.01;
 // A weight that falls by less than this share is as good as found.
 constexpr double kGain = 0.01;
 
 // v = 1 + M 1 + M^2 1 + ... until w = v - M v is positive everywhere; v and w, or nothing. `multiply(x, out)`
 // is the product with M or its transpose.
 template <class F>
-bool positivePair(F&& multiply, std::vector<glm::dvec3>& v, std::vector<glm::dvec3>& w) {
+bool positivePair(F&& multiply, int most_sums, std::vector<glm::dvec3>& v, std::vector<glm::dvec3>& w) {
   std::fill(v.begin(), v.end(), glm::dvec3(1.0));
-  for (int k = 0; k < kMostSums; ++k) {
+  for (int k = 0; k < most_sums; ++k) {
     multiply(v, w);
     double low = kNoBound;
     for (std::size_t q = 0; q < v.size(); ++q)
@@ -96,6 +99,17 @@ bool ErrorBounds::allColumnsThatMatter() const {
   return true;
 }
 
+// out = M^T x for reflected = R x. An unknown column that does not matter carries nothing.
+void ErrorBounds::transposed(const Field& reflected, Field& out) const {
+  glm::dvec3 most(0.0);
+  if (!complete_) {
+    for (const glm::dvec3& value : reflected) most = glm::max(most, value);
+  }
+  matrix_.transposed(reflected, out);
+  for (std::uint32_t q = 0; q < out.size(); ++q)
+    out[q] = matrix_.knows(q) ? out[q] * (1 + kRounding) : most * sent_;
+}
+
 // What holds whatever the columns are: none passes on more than its share of the largest reflectance.
 void ErrorBounds::capTotal() {
   glm::dvec3 rho(0.0);
@@ -112,11 +126,11 @@ void ErrorBounds::setTotal(Field z) {
   weights_stale_ = true;
 }
 
-// Where that is none, but all columns are known: a multiple of some y > M^T y.
+// Where that is none: a multiple of some y > M^T y.
 void ErrorBounds::startTotal() {
   Field y(matrix_.size()), w(matrix_.size());
-  const auto multiplyTransposed = [&](const Field& x, Field& out) { matrix_.transposed(reflected(x), out); };
-  if (!positivePair(multiplyTransposed, y, w)) return;
+  const auto multiplyTransposed = [&](const Field& x, Field& out) { transposed(reflected(x), out); };
+  if (!positivePair(multiplyTransposed, complete_ ? kMostSums : kMostSumsOnTheWay, y, w)) return;
   Field needed(matrix_.size());
   multiplyTransposed(countedPlus(Field(matrix_.size(), glm::dvec3(0.0))), needed);
   glm::dvec3 factor(0.0);
@@ -126,18 +140,11 @@ void ErrorBounds::startTotal() {
 }
 
 bool ErrorBounds::lowerTotal() {
-  glm::dvec3 most(0.0);
-  for (const glm::dvec3& value : reflected_total_) most = glm::max(most, value);
-  most *= matrix_.largestSent();
   double before = 0, after = 0;
   Field lower(z_.size());
-  matrix_.transposed(reflected_total_, lower);
-  for (std::uint32_t q = 0; q < z_.size(); ++q) {
-    // An unknown column that does not matter carries nothing.
-    const glm::dvec3 sent = matrix_.knows(q) ? lower[q] * (1 + kRounding)
-                            : complete_      ? glm::dvec3(0.0)
-                                             : most;
-    lower[q] = glm::min(z_[q], sent);
+  transposed(reflected_total_, lower);
+  for (std::size_t q = 0; q < z_.size(); ++q) {
+    lower[q] = glm::min(z_[q], lower[q]);
     before += state_.area()[q] * sum(z_[q]);
     after += state_.area()[q] * sum(lower[q]);
   }
@@ -154,7 +161,7 @@ void ErrorBounds::raiseTotal() {
 void ErrorBounds::startComparison() {
   v_.assign(matrix_.size(), glm::dvec3(1.0));
   w_.resize(matrix_.size());
-  if (!positivePair([&](const Field& x, Field& out) { multiply(x, out); }, v_, w_)) {
+  if (!positivePair([&](const Field& x, Field& out) { multiply(x, out); }, kMostSums, v_, w_)) {
     v_.clear();
     return;
   }
@@ -216,8 +223,13 @@ bool ErrorBounds::refresh() {
     version_ = matrix_.version();
     complete_ = allColumnsThatMatter();
     if (complete_) countEmittersWhereNoLightLeaves();
+    const double sent = matrix_.usuallySent();
+    if (sent > sent_) {
+      sent_ = sent * kSentMargin;
+      capTotal();
+    }
   }
-  if (z_.empty() && complete_) startTotal();
+  if (z_.empty()) startTotal();
   if (!complete_) v_.clear();
   if (complete_ && compared_version_ != matrix_.version()) startComparison();
   if (compared_version_ != matrix_.version()) {

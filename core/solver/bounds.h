@@ -3,9 +3,10 @@
 //
 // With e = B* - B the error of the patches' radiosity (B = S + U), e = (I - M)^-1 M U.
 //
-// Total: with weights z >= M^T (1 + z), sum A |e| <= sum A |U| z. M^T is known as far as columns are; what an
-// unknown column could reflect at most stands in its place, so this bound holds from the first shot on. An
-// iteration z <- M^T (1 + z) keeps the inequality and lowers z. Weights y <= M^T (1 + y), raised from 0 along
+// Total: with weights z >= M^T (1 + z), sum A |e| <= sum A |U| z. M^T is known as far as columns are; in the
+// place of an unknown one stands what it could reflect at most if it sends no more of its light than nearly
+// all that are known do (PatchMatrix::usuallySent: 1 but for approximation), so that there is a bound from
+// the first shot on. An iteration z <- M^T (1 + z) keeps the inequality and lowers z. Weights y <= M^T (1 + y), raised from 0 along
 // the columns that are known, bound it from below: sum A e >= sum A max(U, 0) y - sum A max(-U, 0) z.
 //
 // Per patch, once all columns that matter are known: with v > 0 and w = v - M v > 0, |e| <= (v - w) max |U| /
@@ -80,6 +81,7 @@ class ErrorBounds {
   Field countedPlus(const Field& z) const;
   void count(std::vector<char> counted);
   void countEmittersWhereNoLightLeaves();
+  void transposed(const Field& reflected, Field& out) const;
   void capTotal();
   void setTotal(Field z);
   void startTotal();
@@ -125,6 +127,7 @@ class ErrorBounds {
   bool complete_ = false;
   std::uint64_t version_ = 0;                           // of the matrix at the last refresh
   std::uint64_t compared_version_ = ~std::uint64_t{0};  // of the matrix that w_ belongs to
+  double sent_ = 1;                                     // of its light by an unknown column
   Field z_;                                             // empty: no bound
   Field reflected_total_;                               // rho (z + 1 where errors count)
   Field y_;                                             // below z

@@ -19,6 +19,9 @@ struct Channels {
   explicit Channels(std::size_t size) : r(size, 0.0), g(size, 0.0), b(size, 0.0) {}
 };
 
+// Share of the known area whose patches may send more than the others do.
+constexpr double kUnusual = 0.01;
+
 // Four sums side by side, which processors take in pairs or more.
 double dot(const float* a, const double* b, std::size_t count) {
   double sums[4] = {};
@@ -40,6 +43,7 @@ PatchMatrix::PatchMatrix(const Receivers& receivers, std::span<const double> are
       known_(area.size(), 0),
       reached_(area.size(), 0),
       closure_(area.size(), 0.0),
+      sent_(area.size(), 0.0),
       sum_(area.size(), 0.0) {}
 
 void PatchMatrix::set(std::uint32_t q, const Column& column) {
@@ -104,7 +108,24 @@ void PatchMatrix::store(PatchColumn& out, std::uint32_t q) {
   }
   out.runs.push_back({static_cast<std::uint32_t>(sum_.size()), values});
   touched_.clear();
+  sent_[q] = sent;
   largest_sent_ = std::max(largest_sent_, sent);
+}
+
+double PatchMatrix::usuallySent() const {
+  std::vector<std::uint32_t> by_sent;
+  double left_out = 0;
+  for (std::uint32_t q = 0; q < known_.size(); ++q) {
+    if (!known_[q]) continue;
+    by_sent.push_back(q);
+    left_out += kUnusual * area_[q];
+  }
+  std::sort(by_sent.begin(), by_sent.end(), [this](auto a, auto b) { return sent_[a] > sent_[b]; });
+  for (const std::uint32_t q : by_sent) {
+    left_out -= area_[q];
+    if (left_out < 0) return std::max(sent_[q], 1.0);
+  }
+  return 1;
 }
 
 template <class F>
