@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <tuple>
 
 #include "formfactor/regions.h"
 
@@ -102,6 +103,18 @@ void PatchPolygons::join(Patch& patch) const {
     patch.mean_normal += part.area() * part.normal();
   }
   patch.mean_normal = glm::normalize(patch.mean_normal);
+  // Parts meet at corners, which count once.
+  for (const FactorPolygon* part : parts)
+    patch.corners.insert(patch.corners.end(), part->corners().begin(), part->corners().end());
+  const auto cell = [this](const glm::dvec3& p) { return glm::round(p / margin_); };
+  const auto before = [&](const glm::dvec3& a, const glm::dvec3& b) {
+    const glm::dvec3 x = cell(a), y = cell(b);
+    return std::tie(x.x, x.y, x.z) < std::tie(y.x, y.y, y.z);
+  };
+  std::sort(patch.corners.begin(), patch.corners.end(), before);
+  patch.corners.erase(std::unique(patch.corners.begin(), patch.corners.end(),
+                                  [&](const auto& a, const auto& b) { return cell(a) == cell(b); }),
+                      patch.corners.end());
   for (const FactorPolygon* part : parts)
     patch.most_slant = std::max(patch.most_slant, glm::length(glm::cross(patch.mean_normal, part->normal())));
   // Quarters of about as many parts that lie together.
@@ -162,16 +175,20 @@ bool PatchPolygons::isSeen(const Patch& patch, std::uint32_t q, const glm::dvec3
   // The sphere around it first: it needs no pass over the corners.
   const double height = glm::dot(normal, patch.middle - point);
   if (height <= margin_ - patch.radius) return false;
-  return height > margin_ + patch.radius || glm::dot(normal, highest(q, normal).at - point) > margin_;
+  if (height > margin_ + patch.radius) return true;
+  if (!patch.joined()) return glm::dot(normal, highest(q, normal).at - point) > margin_;
+  const double horizon = glm::dot(normal, point) + margin_;
+  return std::any_of(patch.corners.begin(), patch.corners.end(),
+                     [&](const glm::dvec3& corner) { return glm::dot(normal, corner) > horizon; });
 }
 
-// As quickFactor, of a patch of several surfaces that is above the horizon.
-double PatchPolygons::joinedFactor(const Patch& patch, const glm::dvec3& point, const glm::dvec3& normal,
-                                   std::vector<glm::dvec3>& scratch) const {
+// As quickFactor, of a patch of several surfaces.
+double PatchPolygons::joinedFactor(const Patch& patch, std::uint32_t q, const glm::dvec3& point,
+                                   const glm::dvec3& normal, std::vector<glm::dvec3>& scratch) const {
   const glm::dvec3 to = patch.middle - point;
   const double distance = glm::length(to), facing = -glm::dot(to, patch.mean_normal),
                slant = patch.most_slant * distance + patch.radius;
-  if (facing < -slant) return 0;
+  if (facing < -slant || !isSeen(patch, q, point, normal)) return 0;
   double sum = 0;
   if (facing > slant && distance > kFarJoined * patch.radius && glm::dot(to, normal) > patch.radius) {
     for (const Share& share : patch.shares) {
@@ -202,8 +219,8 @@ double PatchPolygons::factor(std::uint32_t q, const glm::dvec3& point, const glm
 double PatchPolygons::quickFactor(std::uint32_t q, const glm::dvec3& point, const glm::dvec3& normal,
                                   std::vector<glm::dvec3>& scratch) const {
   const Patch& patch = patches_[q];
+  if (patch.joined()) return joinedFactor(patch, q, point, normal, scratch);
   if (!isSeen(patch, q, point, normal)) return 0;
-  if (patch.joined()) return joinedFactor(patch, point, normal, scratch);
   double sum = 0;
   for (const FactorPolygon& part : patch.parts) sum += part.quick(point, normal, scratch);
   return std::max(sum, 0.0);

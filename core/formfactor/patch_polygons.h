@@ -55,6 +55,7 @@ class PatchPolygons {
     bool rectangle = false;
     // Of several surfaces:
     std::vector<Share> shares;  // what stands for it from afar
+    std::vector<glm::dvec3> corners;
     glm::dvec3 mean_normal{0.0};
     double most_slant = 0;  // sine of the largest angle between that and a part's normal
     bool joined() const { return surface == kNone; }
@@ -62,7 +63,7 @@ class PatchPolygons {
   using Pieces = std::vector<std::vector<std::uint32_t>>;  // one list for each of Mesh::patch_shapes
   void collect(const Mesh& mesh, std::uint32_t q, const Pieces& pieces);
   void join(Patch& patch) const;
-  double joinedFactor(const Patch& patch, const glm::dvec3& point, const glm::dvec3& normal,
+  double joinedFactor(const Patch& patch, std::uint32_t q, const glm::dvec3& point, const glm::dvec3& normal,
                       std::vector<glm::dvec3>& scratch) const;
   void enclose(Patch& patch) const;
   bool isSeen(const Patch& patch, std::uint32_t q, const glm::dvec3& point, const glm::dvec3& normal) const;
