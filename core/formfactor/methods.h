@@ -8,6 +8,7 @@
 
 #include "base/cancel.h"
 #include "base/choice.h"
+#include "base/workers.h"
 #include "formfactor/method.h"
 #include "mesh/mesh.h"
 
@@ -35,6 +36,8 @@ struct FormFactorSetup {
   HemicubeDrawing hemicube_drawing = HemicubeDrawing::kAuto;
   /// Of the mesh at its vertices, for methods that have theirs there; null: they make them.
   std::shared_ptr<const Receivers> receivers = nullptr;
+  /// That share out large columns; null: the calling thread does all. The values are the same.
+  std::shared_ptr<Workers> workers = nullptr;
   CancelToken cancel = {};  ///< of setting up
 };
 

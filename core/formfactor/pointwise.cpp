@@ -8,41 +8,55 @@
 #include "formfactor/emitter_share.h"
 
 namespace unshot {
+namespace {
+
+// Receivers that are decided on together, by one thread; and so many of these parts are worth waking others.
+constexpr std::uint32_t kPart = 512;
+constexpr std::size_t kWorthSharing = 4;
+
+}  // namespace
 
 Pointwise::Pointwise(const FormFactorSetup& setup, std::shared_ptr<const PatchPolygons> polygons,
                      std::unique_ptr<Visibility> visibility)
     : mesh_(*setup.mesh),
       polygons_(std::move(polygons)),
-      visibility_(std::move(visibility)),
+      occludes_(visibility != nullptr),
       receivers_(setup.receivers ? setup.receivers
                                  : std::make_shared<const Receivers>(
                                        makeReceivers(*setup.mesh, ReceiverKind::kVertices, setup.cancel))) {
+  hands_.emplace_back().visibility = std::move(visibility);
+  for (unsigned k = 1; setup.workers && k < setup.workers->count(); ++k) {
+    std::unique_ptr<Visibility> another = occludes_ ? hands_[0].visibility->another() : nullptr;
+    if (occludes_ && !another) break;
+    hands_.emplace_back().visibility = std::move(another);
+  }
+  if (setup.workers && hands_.size() == setup.workers->count()) workers_ = setup.workers;
   const EmitterShare share(mesh_);
   for (std::uint32_t q = 0; q < mesh_.patch_count; ++q)
-    exact_.push_back(!visibility_ || share.isLarge(mesh_.sides[mesh_.patch_side[q]], mesh_.patch_area[q]));
+    exact_.push_back(!occludes_ || share.isLarge(mesh_.sides[mesh_.patch_side[q]], mesh_.patch_area[q]));
 }
 
 double Pointwise::factor(std::uint32_t v, std::uint32_t q) {
   double sum = 0;
   for (const ReceiverView& view : receivers_->viewsOf(v)) {
-    const double k = view.weight * lambert(view, q);
-    sum += k == 0 || !visibility_ ? k : k * visibility_->seen(view, q);
+    const double k = view.weight * lambert(view, q, hands_[0]);
+    sum += k == 0 || !occludes_ ? k : k * hands_[0].visibility->seen(view, q);
   }
   return sum;
 }
 
 // The Lambert factor without occlusion.
-double Pointwise::lambert(const ReceiverView& from, std::uint32_t q) {
+double Pointwise::lambert(const ReceiverView& from, std::uint32_t q, Hand& hand) const {
   if (mesh_.sides[from.side].surface == polygons_->surface(q)) return 0;
-  return exact_[q] ? polygons_->factor(q, from.position, from.normal, scratch_)
-                   : polygons_->quickFactor(q, from.position, from.normal, scratch_);
+  return exact_[q] ? polygons_->factor(q, from.position, from.normal, hand.scratch)
+                   : polygons_->quickFactor(q, from.position, from.normal, hand.scratch);
 }
 
 // Adds to the sums of the receivers what the views see of the patch.
-void Pointwise::decide(Looks& looks, std::uint32_t q) {
+void Pointwise::decide(Looks& looks, std::uint32_t q, Hand& hand) {
   if (looks.count == 0) return;
   std::array<double, Looks::kMost> shares;
-  visibility_->seenFrom({looks.views.data(), looks.count}, q, {shares.data(), looks.count});
+  hand.visibility->seenFrom({looks.views.data(), looks.count}, q, {shares.data(), looks.count});
   for (std::size_t k = 0; k < looks.count; ++k) sums_[looks.receivers[k]] += looks.unoccluded[k] * shares[k];
   looks.count = 0;
 }
@@ -53,22 +67,17 @@ Column Pointwise::column(std::uint32_t q) {
   out.first = reached.first;
   out.k.assign(reached.count, 0.0f);
   sums_.assign(reached.count, 0.0);
-  Looks looks;
-  for (std::uint32_t n = 0; n < reached.count; ++n) {
-    for (const ReceiverView& view : receivers_->viewsOf(reached.first + n)) {
-      const double k = view.weight * lambert(view, q);
-      if (k == 0) continue;
-      if (!visibility_) {
-        sums_[n] += k;
-        continue;
-      }
-      looks.views[looks.count] = &view;
-      looks.receivers[looks.count] = n;
-      looks.unoccluded[looks.count++] = k;
-      if (looks.count == Looks::kMost) decide(looks, q);
-    }
+  // The same parts whoever does them, so that rays go together with the same others.
+  const std::size_t parts = (std::size_t{reached.count} + kPart - 1) / kPart;
+  const auto add = [&](std::size_t part, unsigned worker) {
+    const auto first = static_cast<std::uint32_t>(part) * kPart;
+    addSeen(q, {reached.first + first, std::min(kPart, reached.count - first)}, first, hands_[worker]);
+  };
+  if (workers_ && parts >= kWorthSharing) {
+    workers_->run(parts, add);
+  } else {
+    for (std::size_t part = 0; part < parts; ++part) add(part, 0);
   }
-  if (visibility_) decide(looks, q);
   for (std::uint32_t n = 0; n < reached.count; ++n) out.k[n] = static_cast<float>(sums_[n]);
   double received = 0;
   for (std::uint32_t v = reached.first; v < reached.end(); ++v)
@@ -76,6 +85,26 @@ Column Pointwise::column(std::uint32_t q) {
   out.escape = escapeOf(q);
   out.defect = 1 - out.escape - received / mesh_.patch_area[q];
   return out;
+}
+
+// To the sums from number `first` on, of these receivers.
+void Pointwise::addSeen(std::uint32_t q, const Range& receivers, std::uint32_t first, Hand& hand) {
+  Looks looks;
+  for (std::uint32_t n = 0; n < receivers.count; ++n) {
+    for (const ReceiverView& view : receivers_->viewsOf(receivers.first + n)) {
+      const double k = view.weight * lambert(view, q, hand);
+      if (k == 0) continue;
+      if (!occludes_) {
+        sums_[first + n] += k;
+        continue;
+      }
+      looks.views[looks.count] = &view;
+      looks.receivers[looks.count] = first + n;
+      looks.unoccluded[looks.count++] = k;
+      if (looks.count == Looks::kMost) decide(looks, q, hand);
+    }
+  }
+  decide(looks, q, hand);
 }
 
 Row Pointwise::row(std::uint32_t v) {
@@ -94,7 +123,7 @@ Row Pointwise::row(std::uint32_t v) {
 
 double Pointwise::escapeOf(std::uint32_t q) {
   if (mesh_.closed) return 0;
-  return visibility_ ? visibility_->escaping(q) : escapeAlongRows(q);
+  return occludes_ ? hands_[0].visibility->escaping(q) : escapeAlongRows(q);
 }
 
 // What leaves is found by gathering back along the rows of the patch's own receivers, so that the error of

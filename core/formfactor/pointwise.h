@@ -26,6 +26,8 @@ class Visibility {
                         std::span<double> shares) {
     for (std::size_t k = 0; k < points.size(); ++k) shares[k] = seen(*points[k], q);
   }
+  /// Another that says the same, for another thread; null: this one is all there is.
+  virtual std::unique_ptr<Visibility> another() const { return nullptr; }
   /// The share of patch q's light that meets no surface.
   virtual double escaping(std::uint32_t q) = 0;
   // See FormFactorMethod.
@@ -42,8 +44,8 @@ class Pointwise final : public FormFactorMethod {
   ReceiverKind receiverKind() const override { return ReceiverKind::kVertices; }
   Column column(std::uint32_t q) override;
   Row row(std::uint32_t v) override;
-  std::uint64_t drawn() const override { return visibility_ ? visibility_->drawn() : 0; }
-  std::string note() const override { return visibility_ ? visibility_->note() : std::string(); }
+  std::uint64_t drawn() const override { return occludes_ ? hands_[0].visibility->drawn() : 0; }
+  std::string note() const override { return occludes_ ? hands_[0].visibility->note() : std::string(); }
 
  private:
   // Views that look at a patch together.
@@ -55,21 +57,29 @@ class Pointwise final : public FormFactorMethod {
     std::size_t count = 0;
   };
 
+  // What one thread has for itself.
+  struct Hand {
+    std::unique_ptr<Visibility> visibility;  // null where nothing occludes
+    std::vector<glm::dvec3> scratch;
+  };
+
   double factor(std::uint32_t v, std::uint32_t q);
-  double lambert(const ReceiverView& from, std::uint32_t q);
-  void decide(Looks& looks, std::uint32_t q);
+  double lambert(const ReceiverView& from, std::uint32_t q, Hand& hand) const;
+  void decide(Looks& looks, std::uint32_t q, Hand& hand);
+  void addSeen(std::uint32_t q, const Range& receivers, std::uint32_t first, Hand& hand);
   double escapeOf(std::uint32_t q);
   double escapeAlongRows(std::uint32_t q);
   void groupShares();
 
   const Mesh& mesh_;
   std::shared_ptr<const PatchPolygons> polygons_;
-  std::unique_ptr<Visibility> visibility_;
+  std::shared_ptr<Workers> workers_;  // null: one hand does all
+  bool occludes_;
+  std::vector<Hand> hands_;  // one per worker
   std::shared_ptr<const Receivers> receivers_;
   // One per patch: without occlusion all factors are exact; beside what rays leave open those of patches that
   // emit little or nothing need not be.
   std::vector<char> exact_;
-  std::vector<glm::dvec3> scratch_;
   std::vector<double> sums_;
   std::vector<PatchShare> by_patch_;
   std::vector<std::uint32_t> share_start_;

@@ -71,7 +71,11 @@ constexpr int kEscapeStrata = 12;
 class ShadowRays final : public Visibility {
  public:
   ShadowRays(const Mesh& mesh, std::shared_ptr<const PatchPolygons> polygons, std::uint64_t seed)
-      : mesh_(mesh), polygons_(std::move(polygons)), rays_(mesh), seed_(seed), samples_(mesh.patch_count) {
+      : mesh_(mesh),
+        polygons_(std::move(polygons)),
+        rays_(std::make_shared<const MeshRays>(mesh)),
+        seed_(seed),
+        samples_(mesh.patch_count) {
     const EmitterShare share(mesh);
     for (std::uint32_t q = 0; q < mesh.patch_count; ++q)
       large_.push_back(mesh.emits(q) && share.isLarge(mesh.sides[mesh.patch_side[q]], mesh.patch_area[q]));
@@ -82,7 +86,7 @@ class ShadowRays final : public Visibility {
                 std::span<double> shares) override {
     if (large_[q]) return Visibility::seenFrom(points, q, shares);
     const glm::dvec3& normal = mesh_.sides[mesh_.patch_side[q]].normal;
-    const glm::dvec3 sample = samplesOf(q, 0)[0], start = rays_.rays().lifted(sample, normal);
+    const glm::dvec3 sample = samplesOf(q, 0)[0], start = rays_->rays().lifted(sample, normal);
     std::array<glm::dvec3, SceneRays::kTogether> ends;
     std::array<std::size_t, SceneRays::kTogether> number;
     std::size_t count = 0;
@@ -100,18 +104,20 @@ class ShadowRays final : public Visibility {
         continue;
       }
       number[count] = k;
-      ends[count++] = rays_.rays().lifted(from.position, from.normal);
+      ends[count++] = rays_->rays().lifted(from.position, from.normal);
       if (count == ends.size()) decide();
     }
     decide();
   }
 
   double seen(const ReceiverView& from, std::uint32_t q) override {
-    const glm::dvec3 eye = rays_.rays().lifted(from.position, from.normal);
+    const glm::dvec3 eye = rays_->rays().lifted(from.position, from.normal);
     if (isWideEmitter(from, q)) return seenInParts(from, eye, q);
     if (large_[q]) return emitterSeen(from, eye, q);
     return share(from, eye, q, levelFor(from, q));
   }
+
+  std::unique_ptr<Visibility> another() const override { return std::make_unique<ShadowRays>(*this); }
 
   double escaping(std::uint32_t q) override {
     const Side& side = mesh_.sides[mesh_.patch_side[q]];
@@ -124,7 +130,7 @@ class ShadowRays final : public Visibility {
         const double u = (i + draw()) / kEscapeStrata, v = (j + draw()) / kEscapeStrata;
         const glm::dvec3 direction = cosineDirection(side.normal, u, v);
         const std::size_t k = static_cast<std::size_t>(7 * i + j) % from.size();
-        missed += !rays_.rays().meetsAny(rays_.rays().lifted(from[k], side.normal), direction);
+        missed += !rays_->rays().meetsAny(rays_->rays().lifted(from[k], side.normal), direction);
       }
     }
     return missed / double{kEscapeStrata * kEscapeStrata};
@@ -160,7 +166,7 @@ class ShadowRays final : public Visibility {
         const double square = glm::dot(to, to), near = glm::dot(to, from.normal), far = -glm::dot(to, normal);
         if (near <= 0 || far <= 0) continue;  // below the horizon: not hidden, not there
         all += kernels[count] = near * far / (square * square);
-        ends[count++] = rays_.rays().lifted(sample, normal);
+        ends[count++] = rays_->rays().lifted(sample, normal);
       }
       const std::uint32_t hidden = occluded(eye, {ends.data(), count});
       for (std::size_t k = 0; k < count; ++k) visible += hidden >> k & 1 ? 0 : kernels[k];
@@ -172,14 +178,14 @@ class ShadowRays final : public Visibility {
     const PatchPolygons::Corner corner = polygons_->highest(q, from.normal);
     const double height = glm::dot(corner.at - from.position, from.normal),
                  inside = glm::dot(corner.inside - from.position, from.normal);
-    if (height < kTold * rays_.rays().lift()) return 0;
+    if (height < kTold * rays_->rays().lift()) return 0;
     const double inset = inside < 0 ? std::min(kInset, height / (2 * (height - inside))) : kInset;
     const glm::dvec3 near_corner = corner.at + inset * (corner.inside - corner.at);
-    return rays_.rays().occluded(eye, rays_.rays().lifted(near_corner, normal)) ? 0 : 1;
+    return rays_->rays().occluded(eye, rays_->rays().lifted(near_corner, normal)) ? 0 : 1;
   }
 
   std::uint32_t occluded(const glm::dvec3& eye, std::span<const glm::dvec3> ends) const {
-    return ends.empty() ? 0 : rays_.occluded(eye, ends);
+    return ends.empty() ? 0 : rays_->occluded(eye, ends);
   }
 
   double emitterSeen(const ReceiverView& from, const glm::dvec3& eye, std::uint32_t q) {
@@ -226,7 +232,7 @@ class ShadowRays final : public Visibility {
       if (near <= 0 || far <= 0) continue;
       kernel[k] = near * far / (square * square);
       number[count] = k;
-      ends[count++] = rays_.rays().lifted(at, normal);
+      ends[count++] = rays_->rays().lifted(at, normal);
       if (count == ends.size()) look(mark);
     }
     look(mark);
@@ -265,7 +271,7 @@ class ShadowRays final : public Visibility {
         const double u = along(k % n, step == 1 ? edges_[e].middle() : 0),
                      v = along(k / n, step == 1 ? 0 : edges_[e].middle());
         number[count] = e;
-        ends[count++] = rays_.rays().lifted(within(ring, u, v), normal);
+        ends[count++] = rays_->rays().lifted(within(ring, u, v), normal);
         if (count == ends.size()) look(narrow);
       }
       look(narrow);
@@ -286,7 +292,7 @@ class ShadowRays final : public Visibility {
     std::size_t count = 0;
     for (const glm::dvec2& at : kFirstLooks) {
       const glm::dvec3 end = within(ring, at.x, at.y);
-      if (glm::dot(end - from.position, from.normal) > 0) ends[count++] = rays_.rays().lifted(end, normal);
+      if (glm::dot(end - from.position, from.normal) > 0) ends[count++] = rays_->rays().lifted(end, normal);
     }
     if (count == 0) return std::nullopt;
     const std::uint32_t hidden = occluded(eye, {ends.data(), count});
@@ -343,7 +349,7 @@ class ShadowRays final : public Visibility {
     std::array<glm::dvec3, 5> ends;
     std::size_t count = 0;
     const auto add = [&](const glm::dvec3& at) {
-      if (height(at) > 0) ends[count++] = rays_.rays().lifted(at, normal);
+      if (height(at) > 0) ends[count++] = rays_->rays().lifted(at, normal);
     };
     add(centre);
     const std::size_t corners = ring[2] == ring[3] ? 3 : 4;
@@ -351,7 +357,7 @@ class ShadowRays final : public Visibility {
     if (count == 0) {
       const glm::dvec3& top = *std::max_element(
           ring.begin(), ring.end(), [&](const auto& x, const auto& y) { return height(x) < height(y); });
-      if (height(top) <= kTold * rays_.rays().lift()) return 0;
+      if (height(top) <= kTold * rays_->rays().lift()) return 0;
       add(glm::mix(centre, top, (height(top) / 2 - height(centre)) / (height(top) - height(centre))));
     }
     if (count == 0) return 0;
@@ -367,7 +373,7 @@ class ShadowRays final : public Visibility {
 
   const Mesh& mesh_;
   std::shared_ptr<const PatchPolygons> polygons_;
-  MeshRays rays_;
+  std::shared_ptr<const MeshRays> rays_;
   std::uint64_t seed_;
   std::vector<char> large_;  // one per patch: it emits so much that the edges of its shadows show
   std::vector<std::array<std::vector<glm::dvec3>, kLevels>> samples_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <thread>
 #include <utility>
 
 #include "base/clock.h"
@@ -305,6 +306,8 @@ void LiveSolve::begin(Start start) {
   const bool another_scene = isKept() && start.scene.path != setup_.kept.scene;
   SolveOptions own = start.options, asked = start.options;
   own.mesh = std::move(start.mesh);
+  // The window has a core for itself.
+  if (own.threads == 0) own.threads = std::max(2u, std::thread::hardware_concurrency()) - 1;
   if (start.saved) {
     asked = start.saved->options(asked);
     asked.mesh.reset();  // a restart cuts it as it is asked to then

@@ -21,6 +21,8 @@ constexpr double kNearJoined = 1;
 constexpr double kSeconds = 4e-3;  // of an advance
 // Looks that are kept for the next pass, 24 bytes each.
 constexpr std::size_t kMostKept = 2'000'000;
+// Patches that each thread looks for before their light is added up.
+constexpr std::size_t kAhead = 4;
 
 std::vector<glm::dvec3> placesOf(const Receivers& receivers, const Range& range) {
   std::vector<glm::dvec3> out;
@@ -50,14 +52,17 @@ std::optional<glm::dvec3> placeAbove(const FactorPolygon& polygon, const Receive
 
 }  // namespace
 
-LocalPass::LocalPass(const Mesh& mesh, const Receivers& receivers, bool occlusion)
+LocalPass::LocalPass(const Mesh& mesh, const Receivers& receivers, bool occlusion,
+                     std::shared_ptr<Workers> workers)
     : mesh_(mesh),
       receivers_(receivers),
       polygons_(mesh),
       rays_(occlusion ? std::make_unique<MeshRays>(mesh) : nullptr),
       first_receiver_(receivers.reachedBy(false).first),
       places_(placesOf(receivers, receivers.reachedBy(false))),
-      tree_(places_) {
+      tree_(places_),
+      workers_(std::move(workers)),
+      scratch_(workers_ ? workers_->count() : 1) {
   makeGroups();
   looks_.resize(mesh.patch_count);
 }
@@ -96,17 +101,41 @@ void LocalPass::begin(const RadiosityState& state, const MeshField& irradiance) 
     light[v] = receivers_.reflectance[v] * glm::dvec3(irradiance.vertices[v]);
   slopes_ = ElementSlopes(mesh_, light);
   sum_.assign(receivers_.size(), glm::dvec3(0.0));
-  next_ = 0;
+  next_ = found_until_ = 0;
 }
 
 void LocalPass::advance(Transport& transport) {
   const double until = wallSeconds() + kSeconds;
   for (; running() && wallSeconds() < until; ++next_) {
     // What emitters reflect goes the way of their emission, along columns that are exact already.
-    if (!mesh_.emits(next_) && transport.isKept(next_))
-      gather(next_, transport.column(next_), transport.closure());
+    if (mesh_.emits(next_) || !transport.isKept(next_)) continue;
+    if (next_ >= found_until_) findAhead(transport);
+    gather(next_, transport.column(next_), transport.closure());
   }
   if (!running()) irradiance_ = std::move(sum_);
+}
+
+// What the next patches bring, each by a thread, as long as there is room for it.
+void LocalPass::findAhead(const Transport& transport) {
+  if (!workers_ || workers_->count() == 1) return;
+  std::vector<std::uint32_t> patches;
+  for (found_until_ = next_; found_until_ < mesh_.patch_count && kept_ < kMostKept; ++found_until_) {
+    const Column* column = mesh_.emits(found_until_) ? nullptr : transport.kept(found_until_);
+    if (!column || !column->receiver.empty() || looks_[found_until_].found) continue;
+    if (patches.size() == kAhead * workers_->count()) break;
+    patches.push_back(found_until_);
+  }
+  workers_->run(patches.size(), [&](std::size_t k, unsigned worker) {
+    find(patches[k], looks_[patches[k]], scratch_[worker]);
+  });
+  // What is kept is what one thread would have kept.
+  for (const std::uint32_t q : patches) {
+    if (kept_ < kMostKept) {
+      kept_ += looks_[q].looks.size();
+    } else {
+      looks_[q] = {};
+    }
+  }
 }
 
 void LocalPass::gather(std::uint32_t q, const Column& column, const RowClosure& closure) {
@@ -117,7 +146,7 @@ void LocalPass::gather(std::uint32_t q, const Column& column, const RowClosure& 
   Looks* looks = &looks_[q];
   if (!looks->found && kept_ >= kMostKept) looks = &unkept_;
   if (!looks->found || looks == &unkept_) {
-    find(q, *looks);
+    find(q, *looks, scratch_[0]);
     if (looks != &unkept_) kept_ += looks->looks.size();
   }
   std::uint32_t next = 0;
@@ -136,7 +165,7 @@ glm::dvec3 LocalPass::lightOf(const Look& look) const {
   return glm::max(factor * element_light_[look.of] + more, glm::dvec3(0.0));
 }
 
-void LocalPass::find(std::uint32_t q, Looks& out) {
+void LocalPass::find(std::uint32_t q, Looks& out, std::vector<glm::dvec3>& scratch) const {
   out.found = true;
   out.near.clear();
   out.looks.clear();
@@ -145,16 +174,17 @@ void LocalPass::find(std::uint32_t q, Looks& out) {
   tree_.nearSegment(middle, middle, near_radii * polygons_.radius(q), [&](std::uint32_t place) {
     const std::uint32_t v = first_receiver_ + place;
     bool near = false;
-    for (const ReceiverView& view : receivers_.viewsOf(v)) near |= look(view, q, out.looks);
+    for (const ReceiverView& view : receivers_.viewsOf(v)) near |= look(view, q, out.looks, scratch);
     if (near) out.near.push_back({v, static_cast<std::uint32_t>(out.looks.size())});
   });
 }
 
 // Adds what the view sees of the patch's elements. Returns whether there is anything of it to be seen, but
 // for what occludes.
-bool LocalPass::look(const ReceiverView& view, std::uint32_t q, std::vector<Look>& out) {
+bool LocalPass::look(const ReceiverView& view, std::uint32_t q, std::vector<Look>& out,
+                     std::vector<glm::dvec3>& scratch) const {
   if (mesh_.sides[view.side].surface == polygons_.surface(q) ||
-      polygons_.quickFactor(q, view.position, view.normal, scratch_) == 0)
+      polygons_.quickFactor(q, view.position, view.normal, scratch) == 0)
     return false;
   const glm::dvec3& normal = mesh_.sides[mesh_.patch_side[q]].normal;
   const glm::dvec3 eye = rays_ ? rays_->rays().lifted(view.position, view.normal) : view.position;
@@ -185,12 +215,12 @@ bool LocalPass::look(const ReceiverView& view, std::uint32_t q, std::vector<Look
     const Group& group = groups_[g];
     const bool whole = glm::distance(view.position, group.middle) > kNear * group.radius;
     for (const Tile& tile : whole ? group.whole : group.parts) {
-      const double factor = tile.polygon.quick(view.position, view.normal, scratch_);
+      const double factor = tile.polygon.quick(view.position, view.normal, scratch);
       if (factor <= 0) continue;
       Look look{whole ? g : tile.element, whole, static_cast<float>(view.weight * factor)};
       if (!whole)
         look.moment =
-            view.weight * slopes_.moment(view, tile.element, tile.polygon.corners(), factor, scratch_);
+            view.weight * slopes_.moment(view, tile.element, tile.polygon.corners(), factor, scratch);
       add(tile, look);
     }
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/point_tree.h"
+#include "base/workers.h"
 #include "formfactor/patch_polygons.h"
 #include "formfactor/transport.h"
 #include "mesh/mesh.h"
@@ -24,8 +25,9 @@ class LocalPass {
   static constexpr int kPasses = 2;
 
   /// For receivers at vertices; all must outlive the pass. `occlusion`: whether anything can stand between
-  /// two points.
-  LocalPass(const Mesh& mesh, const Receivers& receivers, bool occlusion);
+  /// two points. `workers` share it out; null: the calling thread does all.
+  LocalPass(const Mesh& mesh, const Receivers& receivers, bool occlusion,
+            std::shared_ptr<Workers> workers = nullptr);
 
   /// Starts anew, from the present state and `irradiance`, H at the vertices and of each element [W/m^2].
   void begin(const RadiosityState& state, const MeshField& irradiance);
@@ -70,8 +72,10 @@ class LocalPass {
     std::vector<Look> looks;
   };
   void gather(std::uint32_t q, const Column& column, const RowClosure& closure);
-  void find(std::uint32_t q, Looks& out);
-  bool look(const ReceiverView& view, std::uint32_t q, std::vector<Look>& out);
+  void findAhead(const Transport& transport);
+  void find(std::uint32_t q, Looks& out, std::vector<glm::dvec3>& scratch) const;
+  bool look(const ReceiverView& view, std::uint32_t q, std::vector<Look>& out,
+            std::vector<glm::dvec3>& scratch) const;
   glm::dvec3 lightOf(const Look& look) const;
 
   const Mesh& mesh_;
@@ -89,8 +93,9 @@ class LocalPass {
   std::vector<Looks> looks_;  // one per patch
   Looks unkept_;              // of the patch at hand, where there is no room
   std::size_t kept_ = 0;      // looks
-  std::vector<glm::dvec3> scratch_;
-  std::uint32_t next_ = kNone;
+  std::shared_ptr<Workers> workers_;
+  std::vector<std::vector<glm::dvec3>> scratch_;  // one per worker
+  std::uint32_t next_ = kNone, found_until_ = 0;
 };
 
 }  // namespace unshot

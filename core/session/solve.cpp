@@ -98,8 +98,8 @@ void Solve::Impl::setUp(const std::function<gl::Context&()>& gl, const CancelTok
   });
   planClosure(cancel);
   if (mesh->for_error && transport->receivers().kind == ReceiverKind::kVertices && !options.bounces)
-    local_pass =
-        std::make_unique<LocalPass>(*mesh, transport->receivers(), form_factors_key != "closed-form");
+    local_pass = std::make_unique<LocalPass>(*mesh, transport->receivers(), form_factors_key != "closed-form",
+                                             workers);
   bounces_of_light = std::make_unique<Bounces>(mesh, *transport, *state);
   if (prepared.solved) beginWith(std::move(*prepared.solved));
 }
@@ -133,6 +133,7 @@ void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl, const C
   setup.mesh = mesh.get();
   setup.cancel = cancel;
   setup.seed = options.seed;
+  setup.workers = workers;
   setup.hemicube_resolution = options.hemicube_resolution;
   setup.hemicube_drawing = options.hemicube_drawing;
   setup.gl = [&gl]() -> gl::Context& {

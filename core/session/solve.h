@@ -55,6 +55,7 @@ struct SolveOptions {
   std::uint32_t hemicube_resolution = 0;  ///< pixels along the top face; 0: chosen
   HemicubeDrawing hemicube_drawing = HemicubeDrawing::kAuto;
   std::size_t kept_bytes = std::size_t{1} << 30;  ///< memory for kept columns of K [bytes]
+  unsigned threads = 0;     ///< that share out large pieces of work; 0: one for each core. The same result.
   std::size_t sharers = 1;  ///< solves that share `kept_bytes` in equal parts, this one included
   /// Where given: of the same scene, cut by the same options; it is not cut again.
   std::shared_ptr<const Mesh> mesh;

@@ -44,6 +44,7 @@ struct Solve::Impl {
   PhaseSeconds seconds;
   double cpu_start = 0, solve_start = 0, cpu_setup = 0;
 
+  std::shared_ptr<Workers> workers;
   std::unique_ptr<Transport> transport;
   std::unique_ptr<RadiosityState> state;
   const IterationModeRow* mode_row = nullptr;
@@ -80,7 +81,9 @@ struct Solve::Impl {
   bool begun_solved = false;  // by the trial of its mesh, whose local pass is at its end too
 
   Impl(Scene scene_in, SolveOptions options_in)
-      : options(std::move(options_in)), scene(std::move(scene_in)) {}
+      : options(std::move(options_in)),
+        scene(std::move(scene_in)),
+        workers(std::make_shared<Workers>(options.threads)) {}
 
   void prepare(const std::function<gl::Context&()>& gl, const CancelToken& cancel,
                std::shared_ptr<SavedSolve> saved);

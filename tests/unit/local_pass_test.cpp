@@ -62,5 +62,16 @@ TEST(LocalPass, GoesOnWithWhatItHasSeen) {
   EXPECT_LT(rms(added(second, found_anew, -1)), 0.05 * rms(added(second, first, -1)));
 }
 
+// Threads share out columns and what the pass looks at; the light is the same to the last bit.
+TEST(LocalPass, IsTheSameWithAnyNumberOfThreads) {
+  SolveOptions options = soonest(0.02);
+  options.threads = 1;
+  const Snapshot alone = solved(publishedCornellBox(), options)->snapshot();
+  options.threads = 3;
+  const Snapshot shared = solved(publishedCornellBox(), options)->snapshot();
+  ASSERT_GT(alone.irradiance.size(), 2048u);
+  EXPECT_EQ(alone.irradiance, shared.irradiance);
+}
+
 }  // namespace
 }  // namespace unshot
