@@ -207,6 +207,36 @@ TEST(Bounds, GiveTheTotalErrorExactlyInTheEnd) {
   EXPECT_LT(bound, error * 1.1 / (1 - error));
 }
 
+// A small patch that sends several times its light, as sums over receivers do in narrow places: what others
+// would send that nobody asked for is not taken to be as much.
+TEST(Bounds, AreThereBeforeAllColumnsAreWhereOneSendsTooMuch) {
+  constexpr double kReflectance = 0.3;
+  constexpr std::uint32_t kSmall = 7;
+  constexpr double kSmaller = 0.1;
+  TableSystem system = randomSystem(11, 120, 1, false, 0.8);
+  std::fill(system.reflectance.begin(), system.reflectance.end(), glm::dvec3(kReflectance));
+  for (PatchShare& share : system.receivers.shares) {
+    if (share.patch != kSmall) continue;
+    share.area *= kSmaller;
+    system.receivers.area[share.receiver] *= kSmaller;
+  }
+  system.patch_area[kSmall] *= kSmaller;
+  BoundedRun run(system);
+  for (int round = 0; round < 8; ++round) {
+    for (std::uint32_t q = 0; q < 60; ++q) {
+      const glm::dvec3 all = run.state.unshot()[q];
+      run.state.shoot(q, all, run.transport.column(q));
+      run.expectToHold(run.bounds.at());
+    }
+    run.bounds.refresh();
+    run.expectToHold(run.bounds.at());
+  }
+  ASSERT_GT(run.matrix.largestSent() * kReflectance, 1) << "it alone would leave no bound";
+  EXPECT_LT(run.matrix.usuallySent() * kReflectance, 1);
+  EXPECT_FALSE(run.bounds.complete());
+  EXPECT_LT(run.bounds.at().total_upper, kNoBound);
+}
+
 TEST(Bounds, BracketTheSpectralRadius) {
   TableSystem system = randomSystem(7, 20, 2, false, 1);
   std::fill(system.reflectance.begin(), system.reflectance.end(), glm::dvec3(0.5, 0.75, 0.875));
