@@ -40,10 +40,11 @@ std::pair<double, double> insideRange(const ConvexPolygon& polygon, const glm::d
   return {first, second};
 }
 
-// Both halves of a polygon along a line; a half without area is dropped.
-void halve(const ConvexPolygon& in, const glm::dvec2& a, const glm::dvec2& d, double tolerance,
-           std::vector<ConvexPolygon>& out) {
-  std::vector<double> height(in.size());
+// Both halves of a polygon along a line, or itself; a half without area is dropped. `height` spares
+// allocations.
+void halve(ConvexPolygon& in, const glm::dvec2& a, const glm::dvec2& d, double tolerance,
+           std::vector<double>& height, std::vector<ConvexPolygon>& out) {
+  height.resize(in.size());
   double low = 0, high = 0;
   for (std::size_t k = 0; k < in.size(); ++k) {
     height[k] = cross(d, in[k].uv - a);
@@ -52,7 +53,7 @@ void halve(const ConvexPolygon& in, const glm::dvec2& a, const glm::dvec2& d, do
     high = std::max(high, height[k]);
   }
   if (low == 0 || high == 0) {
-    out.push_back(in);
+    out.push_back(std::move(in));
     return;
   }
   for (const double sign : {1.0, -1.0}) {
@@ -276,6 +277,7 @@ void cutByContacts(std::vector<ConvexPolygon>& polygons, const std::vector<Conta
                    double tolerance) {
   std::vector<ConvexPolygon> next;
   std::vector<const ContactSegment*> near;
+  std::vector<double> height;
   glm::dvec2 low(INFINITY), high(-INFINITY);
   for (const ConvexPolygon& p : polygons) {
     for (const PieceCorner& c : p) {
@@ -298,7 +300,7 @@ void cutByContacts(std::vector<ConvexPolygon>& polygons, const std::vector<Conta
     if (!passes) continue;
     near.push_back(&segment);
     next.clear();
-    for (const ConvexPolygon& p : polygons) halve(p, segment.a, d, tolerance, next);
+    for (ConvexPolygon& p : polygons) halve(p, segment.a, d, tolerance, height, next);
     polygons.swap(next);
   }
   if (near.empty()) return;
