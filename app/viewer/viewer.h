@@ -304,6 +304,13 @@ class Viewer {
     int width;  ///< of the picture [px]
     glm::dvec2 at;
   };
+  /// What is remembered of the panel.
+  struct PanelLook {
+    double scale = 1;
+    std::vector<bool> switches;
+    std::vector<std::pair<ImGuiID, int>> sections;
+    bool operator==(const PanelLook&) const = default;
+  };
   struct RatePoint {
     double time;
     std::uint64_t shots, rows;
@@ -353,15 +360,19 @@ class Viewer {
   void fitToShape(double now);
   bool recallCamera();
   void rememberCamera(const SessionState& state);
+  double nextCameraKept() const;
   double nextKeeping() const;
-  void keepMovedCamera(double now);
+  void keepWhatRests(double now);
   void followHint(double now);
   void endHint();
   void recallPanel();
   void rememberPanel();
+  PanelLook panelLook() const;
   ReferencePicture::Look referenceLook() const;
   double nextMeasure() const;
   void measureReference(double now);
+  void noteMotion();
+  void followRest(double now);
   void followLoads();
   void sendReferencePicture(double deadline);
   /// Whether some are read or written that were asked for.
@@ -411,6 +422,8 @@ class Viewer {
   bool sections_restored_ = false;
   double hint_until_ = 0;  // 0: the scene is not there yet
   std::vector<std::pair<ImGuiID, int>> sections_;
+  PanelLook panel_seen_;
+  double panel_changed_at_ = kNever;  // from what is written
 
   // Frames.
   int gui_frames_ = kFramesAfterInput;
@@ -419,7 +432,10 @@ class Viewer {
   double last_scene_ = 0, last_scene_work_ = 0;  // begin and end of the last work on the scene
   int scene_width_ = 0, scene_height_ = 0;       // [px]
   double frame_cost_ = 0;                        // of a picture of the scene and the frame that shows it [s]
+  double fine_cost_ = 0;                         // of one with all its pixels
   double picture_cost_ = 0;                      // of the one being drawn, so far
+  bool coarse_ = false;                          // pictures are, while the camera moves
+  Camera seen_camera_;                           // that of the last frame
   std::optional<PaintedLook> painted_;
   bool drew_scene_ = false;  // since the last frame
 
