@@ -275,7 +275,7 @@ void Viewer::presented() {
   last_picture_ = last_frame_end_;
   const double cost = std::exchange(picture_cost_, 0);
   if (!scene_.drawnAnew()) return;
-  if (!scene_.coarse()) fine_cost_ = fine_cost_ == 0 ? cost : 0.8 * fine_cost_ + 0.2 * cost;
+  if (!scene_.coarse()) fine_cost_ = cost;
   frame_cost_ = frame_cost_ == 0 ? cost : 0.8 * frame_cost_ + 0.2 * cost;
   // What would not be shown need not be made.
   const double share = renderer().hardware ? 1 : kSoftwareShare;

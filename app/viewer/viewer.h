@@ -164,6 +164,8 @@ class Viewer {
   const Camera& shownCamera() const { return scene_.shownCamera(); }
   const std::shared_ptr<const Snapshot>& shownSnapshot() const { return scene_.snapshot(); }
   bool drawingScene() const { return scene_.drawing(); }
+  /// With fewer pixels than its part of the window, as while the camera moves.
+  bool coarseScene() const { return scene_.coarse(); }
   /// The letter on a key that goes by its place: `key` itself where none is known.
   char printedOn(char key) const;
   double scale() const { return scale_; }
@@ -432,7 +434,7 @@ class Viewer {
   double last_scene_ = 0, last_scene_work_ = 0;  // begin and end of the last work on the scene
   int scene_width_ = 0, scene_height_ = 0;       // [px]
   double frame_cost_ = 0;                        // of a picture of the scene and the frame that shows it [s]
-  double fine_cost_ = 0;                         // of one with all its pixels
+  double fine_cost_ = 0;                         // of the last one with all its pixels
   double picture_cost_ = 0;                      // of the one being drawn, so far
   bool coarse_ = false;                          // pictures are, while the camera moves
   Camera seen_camera_;                           // that of the last frame

@@ -156,6 +156,9 @@ TEST_F(Tips, OfFormFactorsHaveTheLecturesSymbol) {
   EXPECT_THAT(tip, HasSubstr("\u0394G="));
   EXPECT_THAT(tip, HasSubstr("G_ij="));
   EXPECT_THAT(tip, Not(HasSubstr("F=")));
+  const float em = ImGui::GetFontSize();
+  EXPECT_THAT(tipAt({box.Min.x + 2 * em, box.Min.y + 1.1f * em}), HasSubstr("128pixels"))
+      << "how it is traced";
   for (const LecturePageRow& row : lecturePages()) EXPECT_THAT(row.info.help, Not(HasSubstr("F B")));
   for (const HemicubePictureRow& row : hemicubePictures()) EXPECT_THAT(row.info.help, Not(HasSubstr(" F")));
 }
