@@ -23,6 +23,9 @@ constexpr double kSnapshotSeconds = 1.0 / 30;
 // New light is drawn so seldom that the solver keeps most of a machine whose CPU draws.
 constexpr double kSoftwareShare = 4;  // times the cost of a frame
 constexpr double kRestSeconds = 0.2;  // without motion, before the picture is sharpened
+// While the camera moves, a picture that would take longer is drawn coarser.
+constexpr double kFluentSeconds = 0.025;
+constexpr int kCoarseDivisor = 2;
 // In software the window hears nothing for a slice of this length.
 constexpr double kSliceSeconds = 0.004;
 // However many inputs come, a picture in the making has this long between two frames.
@@ -84,7 +87,9 @@ double Viewer::nextSceneWork() const {
   if (screenshots_.posing() && !screenshots_.lit()) return last_scene_work_;
   const double soon = last_scene_work_ + kFrameSeconds;
   if ((sceneStands() && scene_.gliding()) || looksForView()) return soon;
-  if (hasNewSnapshot()) return nextSnapshot();
+  const double fine = coarse_ ? last_motion_ + kRestSeconds : kNever;
+  if (hasNewSnapshot()) return std::min(nextSnapshot(), fine);
+  if (coarse_) return fine;
   return mayBeSharpened(kNever) ? std::max(soon, last_motion_ + kRestSeconds) : kNever;
 }
 
@@ -132,7 +137,18 @@ SceneDisplay::Wanted Viewer::wanted() const {
     const Screenshots::Subject& subject = screenshots_.subject();
     return {subject.camera, subject.settings, scene_width_, scene_height_, samples};
   }
-  return {navigator_.camera(), ui_.settings, scene_width_, scene_height_, samples};
+  return {navigator_.camera(), ui_.settings, scene_width_,
+          scene_height_,       samples,      coarse_ ? kCoarseDivisor : 1};
+}
+
+/// Pictures of a camera that moves are coarse where fine ones take long; at rest all of them are fine.
+void Viewer::noteMotion() {
+  last_motion_ = last_frame_;
+  coarse_ = !renderer().hardware && fine_cost_ > kFluentSeconds;
+}
+
+void Viewer::followRest(double now) {
+  if (coarse_ && !navigator_.moving() && now >= last_motion_ + kRestSeconds) coarse_ = false;
 }
 
 std::shared_ptr<const Snapshot> Viewer::rivalSnapshot() const {
@@ -259,6 +275,7 @@ void Viewer::presented() {
   last_picture_ = last_frame_end_;
   const double cost = std::exchange(picture_cost_, 0);
   if (!scene_.drawnAnew()) return;
+  if (!scene_.coarse()) fine_cost_ = cost;
   frame_cost_ = frame_cost_ == 0 ? cost : 0.8 * frame_cost_ + 0.2 * cost;
   // What would not be shown need not be made.
   const double share = renderer().hardware ? 1 : kSoftwareShare;
@@ -276,7 +293,7 @@ ReferencePicture::Look Viewer::referenceLook() const {
 
 /// When the picture is to be compared with the reference again; infinity where that is done.
 double Viewer::nextMeasure() const {
-  if (!referencePicture() || !sceneStands() ||
+  if (!referencePicture() || !sceneStands() || coarse_ ||
       !reference_picture_->unmeasured(scene_, scene_width_, scene_height_, referenceLook()))
     return kNever;
   return std::max(last_measured_ + kMeasureSeconds, last_motion_ + kRestSeconds);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <iterator>
+#include <utility>
 
 #include "base/clock.h"
 #include "session/pick.h"
@@ -20,7 +21,6 @@ Bounds boundsOf(const Mesh& mesh) { return {mesh.bounds_min, mesh.bounds_max}; }
 
 void Viewer::navigate(double seconds) {
   const ImGuiIO& io = ImGui::GetIO();
-  const Camera before = navigator_.camera();
   // What the mouse moved in the frame of a click, it moved before.
   const bool clicked = std::any_of(std::begin(io.MouseClicked), std::end(io.MouseClicked), std::identity());
   if (clicked) endHint();
@@ -52,7 +52,9 @@ void Viewer::navigate(double seconds) {
   navigator_.fly(direction, io.KeyShift);
   navigator_.advance(seconds);
   pickClicked();
-  if (before != navigator_.camera()) last_motion_ = last_frame_;
+  // By actions, too.
+  if (const Camera before = std::exchange(seen_camera_, navigator_.camera()); before != seen_camera_)
+    noteMotion();
 }
 
 /// To what is under the mouse; where nothing is, as far as the point looked at.

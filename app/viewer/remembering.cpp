@@ -11,6 +11,8 @@
 namespace unshot {
 namespace {
 
+constexpr double kKeepSeconds = 2;  // what has changed rests so long before it is written
+
 struct Switch {
   const char* key;
   bool ViewerState::*value;
@@ -54,17 +56,33 @@ void Viewer::rememberCamera(const SessionState& state) {
 }
 
 /// When the camera, at rest by then, is to be written, so that a crash does not cost it.
-double Viewer::nextKeeping() const {
-  constexpr double kKeepSeconds = 2;
+double Viewer::nextCameraKept() const {
   if (!memory_.on() || !sceneStands() || navigator_.moving() || navigator_.camera() == kept_camera_)
     return kNever;
   return last_motion_ + kKeepSeconds;
 }
 
-void Viewer::keepMovedCamera(double now) {
-  if (now < nextKeeping()) return;
-  rememberCamera(*state_);
-  kept_camera_ = navigator_.camera();
+/// The same for the panel.
+double Viewer::nextKeeping() const { return std::min(nextCameraKept(), panel_changed_at_ + kKeepSeconds); }
+
+void Viewer::keepWhatRests(double now) {
+  if (now >= nextCameraKept()) {
+    rememberCamera(*state_);
+    kept_camera_ = navigator_.camera();
+  }
+  if (PanelLook look = panelLook(); look != panel_seen_) {
+    panel_seen_ = std::move(look);
+    panel_changed_at_ = now;
+  }
+  if (now < panel_changed_at_ + kKeepSeconds) return;
+  panel_changed_at_ = kNever;
+  rememberPanel();
+}
+
+Viewer::PanelLook Viewer::panelLook() const {
+  PanelLook look{relative_scale_, {}, sections_};
+  for (const Switch& one : kSwitches) look.switches.push_back(ui_.*one.value);
+  return look;
 }
 
 void Viewer::recallPanel() {
@@ -75,6 +93,7 @@ void Viewer::recallPanel() {
   for (const Switch& one : kSwitches) {
     if (const auto value = memory_.setting(one.key)) ui_.*one.value = *value == "on";
   }
+  panel_seen_ = panelLook();
 }
 
 /// It stays until it was surely seen, and is not shown again.
@@ -97,6 +116,7 @@ void Viewer::rememberPanel() {
   std::snprintf(scale, sizeof scale, "%.4g", relative_scale_);
   memory_.keepSetting("scale", scale);
   for (const Switch& one : kSwitches) memory_.keepSetting(one.key, ui_.*one.value ? "on" : "off");
+  if (!sections_restored_) return;  // there was no room for them
   std::string text;
   for (const auto& [id, open] : sections_)
     text += (text.empty() ? "" : " ") + std::to_string(id) + (open != 0 ? "+" : "-");
@@ -105,7 +125,8 @@ void Viewer::rememberPanel() {
 
 void Viewer::followSections(ImGuiStorage& sections) {
   if (!memory_.on()) return;
-  if (!std::exchange(sections_restored_, true)) {
+  const bool first = !std::exchange(sections_restored_, true);
+  if (first) {
     const std::string text = memory_.setting("sections").value_or("");
     for (const std::string_view word : splitParts(text, ' ')) {
       if (word.size() < 2) continue;
@@ -117,6 +138,7 @@ void Viewer::followSections(ImGuiStorage& sections) {
   sections_.clear();
   for (const ImGuiStorage::ImGuiStoragePair& pair : sections.Data)
     sections_.emplace_back(pair.key, pair.val_i);
+  if (first) panel_seen_.sections = sections_;
 }
 
 void Viewer::searchActions(const std::string& text) { ui_.prompt.begin(PromptKind::kActions, text); }

@@ -79,6 +79,7 @@ void SceneArea::giveUpWaiting() {
 
 bool SceneArea::draw(const Wanted& wanted, double seconds, double deadline) {
   bool drew = false;
+  if (second_due_ && second_wanted_.divisor < wanted.divisor) second_due_ = false;  // it comes too late
   if (!second_due_ || deadline == SceneDisplay::kAtOnce) {
     drew = first_.draw(firstOf(wanted), seconds, deadline);
     if (!second_ || first_.drawing()) return drew;

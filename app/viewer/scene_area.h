@@ -55,6 +55,7 @@ class SceneArea {
   const std::string& shownDisplay() const { return first_.shownDisplay(); }
   bool drawing() const { return first_.drawing() || second_due_; }
   bool drawnAnew() const { return first_.drawnAnew() || (second_ && second_->drawnAnew()); }
+  bool coarse() const { return first_.coarse() || (second_ && second_->coarse()); }
   const Camera& shownCamera() const { return first_.shownCamera(); }
   /// That of the pictures that are made of this.
   Camera cameraOf(const Wanted& wanted) const { return firstOf(wanted).camera; }

@@ -21,11 +21,21 @@ constexpr std::size_t kFewestRows = 64;
 constexpr std::size_t kMarkedAtOnce = 20'000;  // triangles, whose marks take some milliseconds to find
 constexpr std::size_t kFewestBytes = 1 << 20;
 
-bool sameSamples(const SceneDisplay::Wanted& a, const SceneDisplay::Wanted& b) {
+/// Whether samples that were drawn are also those of the other one.
+bool serves(const SceneDisplay::Wanted& a, const SceneDisplay::Wanted& b) {
   const ViewOptions &va = a.settings.view, &vb = b.settings.view;
   return a.camera == b.camera && va.display == vb.display && va.ambient == vb.ambient &&
          va.light == vb.light && va.reference == vb.reference && va.form_factors == vb.form_factors &&
-         va.last_shot == vb.last_shot && a.width == b.width && a.height == b.height && a.samples == b.samples;
+         va.last_shot == vb.last_shot && a.width == b.width && a.height == b.height &&
+         a.samples == b.samples && a.divisor <= b.divisor;
+}
+
+/// Of the picture itself [px].
+int widthOf(const SceneDisplay::Wanted& wanted) {
+  return (wanted.width + wanted.divisor - 1) / wanted.divisor;
+}
+int heightOf(const SceneDisplay::Wanted& wanted) {
+  return (wanted.height + wanted.divisor - 1) / wanted.divisor;
 }
 
 ViewOptions viewOf(const SceneDisplay::Wanted& wanted) {
@@ -72,7 +82,7 @@ std::optional<Camera> SceneDisplay::continueFraming(std::optional<double> second
 }
 
 bool SceneDisplay::differs(const Wanted& wanted) const {
-  return !drawn_ || !sameSamples(*drawn_, wanted) ||
+  return !drawn_ || !serves(*drawn_, wanted) ||
          drawn_->settings.view.exposure_ev != wanted.settings.view.exposure_ev ||
          drawn_->settings.view.tone != wanted.settings.view.tone ||
          drawn_->settings.view.false_colour != wanted.settings.view.false_colour ||
@@ -108,9 +118,30 @@ bool SceneDisplay::marksStand(const Wanted& wanted) {
   return true;
 }
 
-bool SceneDisplay::sampled(const Wanted& wanted) const { return sampled_ && sameSamples(*sampled_, wanted); }
+/// What is drawn while marks are being found: the display before, where the camera has moved. None: the
+/// picture before stays.
+std::optional<SceneDisplay::Wanted> SceneDisplay::meanwhile(const Wanted& wanted) const {
+  const bool moved = wanted.camera != shown_camera_ || wanted.width != shown_.place_width ||
+                     wanted.height != shown_.place_height;
+  if (shown_display_.empty() || !moved) return std::nullopt;
+  Wanted out = wanted;
+  out.settings.view.display = view_.lacksMarks(displayMode(shown_display_)) ? "radiosity" : shown_display_;
+  return out;
+}
 
-void SceneDisplay::allocate(Picture& picture, int width, int height) {
+bool SceneDisplay::outdated(const Wanted& wanted) const {
+  if (drawing()) return true;
+  if (!waits(wanted)) return differs(wanted);
+  const std::optional<Wanted> other = meanwhile(wanted);
+  return other && differs(*other);
+}
+
+bool SceneDisplay::sampled(const Wanted& wanted) const { return sampled_ && serves(*sampled_, wanted); }
+
+void SceneDisplay::allocate(Picture& picture, const Wanted& wanted) {
+  picture.place_width = wanted.width;
+  picture.place_height = wanted.height;
+  const int width = widthOf(wanted), height = heightOf(wanted);
   if (width == picture.width && height == picture.height) return;
   const gl::Functions& fn = context_.functions();
   fn.BindTexture(GL_TEXTURE_2D, picture.texture.id());
@@ -135,25 +166,29 @@ double SceneDisplay::nextExposure(double metered, double seconds) {
 
 bool SceneDisplay::draw(const Wanted& wanted, double seconds, double deadline) {
   if (wanted.width <= 0 || wanted.height <= 0) return false;
-  // A picture for a window of another size is of no use.
+  // A picture for a window of another size is of no use, and one for a camera at rest comes too late for one
+  // that moves.
   if (making_ && (deadline == kAtOnce || making_->wanted.width != wanted.width ||
-                  making_->wanted.height != wanted.height)) {
+                  making_->wanted.height != wanted.height || making_->wanted.divisor < wanted.divisor)) {
     making_.reset();
   }
-  if (!making_ && !marksStand(wanted)) {  // the picture before stays until they are found
+  const std::optional<Wanted> now = making_              ? making_->wanted
+                                    : marksStand(wanted) ? wanted
+                                                         : meanwhile(wanted);
+  if (!now) {
     if (view_.uploadBytes() == 0) return false;
     const StateGuard guard(context_.functions());
     upload(deadline);
     return true;
   }
-  if (!outdated(wanted) && !gliding_) {
+  if (!drawing() && !differs(*now) && !gliding_) {
     glide_seconds_ = 0;
     return false;
   }
   glide_seconds_ = seconds < 0 || glide_seconds_ < 0 ? -1 : glide_seconds_ + seconds;
   const StateGuard guard(context_.functions());
   if (!upload(deadline)) return true;
-  if (!making_) begin(wanted);
+  if (!making_) begin(*now);
   deadline = extended(deadline);
   if (!drawSamples(deadline)) return true;
   if (making_->row == 0) expose();
@@ -171,13 +206,14 @@ bool SceneDisplay::draw(const Wanted& wanted, double seconds, double deadline) {
 
 void SceneDisplay::begin(const Wanted& wanted) {
   drawn_anew_ = !sampled(wanted);
-  const int width = wanted.width * wanted.samples, height = wanted.height * wanted.samples;
+  const int width = widthOf(wanted) * wanted.samples, height = heightOf(wanted) * wanted.samples;
   if (drawn_anew_) sampled_.reset();
   if (drawn_anew_ && (samples_.width() != width || samples_.height() != height)) {
     samples_ = LinearTarget();  // the old one goes first: both at once may not fit
     samples_ = LinearTarget(context_, width, height);
   }
   making_ = Making{wanted};  // not where there was no memory for it
+  if (!drawn_anew_) making_->wanted.divisor = sampled_->divisor;
 }
 
 /// Sends what the snapshot still has to send until it is done or time is up. Returns whether it is done.
@@ -199,7 +235,7 @@ double SceneDisplay::extended(double deadline) {
   const bool drawn = sampled(making_->wanted);
   const std::size_t pieces = drawn ? 0 : view_.pieceCount(viewOf(making_->wanted)) - making_->piece;
   const double rest = pieces_.seconds(pieces) +
-                      rows_.seconds(static_cast<std::size_t>(making_->wanted.height - making_->row));
+                      rows_.seconds(static_cast<std::size_t>(heightOf(making_->wanted) - making_->row));
   const double now = wallSeconds(), most = Pace::kOverrun * (deadline - now);
   return rest <= most ? now + most : deadline;
 }
@@ -217,13 +253,13 @@ bool SceneDisplay::drawSamples(double deadline) {
 bool SceneDisplay::showRows(double deadline) {
   const Wanted& wanted = making_->wanted;
   const gl::Functions& fn = context_.functions();
-  allocate(next_, wanted.width, wanted.height);
+  allocate(next_, wanted);
   fn.BindFramebuffer(GL_FRAMEBUFFER, next_.framebuffer.id());
-  for (double now = wallSeconds(); making_->row < wanted.height;) {
-    const auto rest = static_cast<std::size_t>(wanted.height - making_->row);
+  for (double now = wallSeconds(); making_->row < next_.height;) {
+    const auto rest = static_cast<std::size_t>(next_.height - making_->row);
     const std::size_t rows = deadline == kAtOnce ? rest : rows_.next(deadline - now, rest, kFewestRows);
-    view_.resolve(samples_, exposure_, viewOf(wanted),
-                  {0, making_->row, wanted.width, static_cast<int>(rows)}, making_->row);
+    view_.resolve(samples_, exposure_, viewOf(wanted), {0, making_->row, next_.width, static_cast<int>(rows)},
+                  making_->row);
     making_->row += static_cast<int>(rows);
     if (deadline == kAtOnce) continue;
     fn.Finish();
@@ -231,7 +267,7 @@ bool SceneDisplay::showRows(double deadline) {
     rows_.note(rows, now - start);
     if (now >= deadline) break;
   }
-  return making_->row == wanted.height;
+  return making_->row == next_.height;
 }
 
 bool SceneDisplay::drawPieces(const LinearTarget& target, const Wanted& wanted, const FrameWindow& window,
@@ -341,10 +377,11 @@ void SceneDisplay::beginFiner(int samples) {
   if (!drawn_) return;
   Finer finer{*drawn_, exposure_, {gl::Texture(context_), gl::Framebuffer(context_)}, {}};
   finer.wanted.samples = samples;
+  finer.wanted.divisor = 1;
   const double all = 1.0 * samples * samples * drawn_->width * drawn_->height;
   finer.bands.count = std::clamp(static_cast<int>(std::ceil(all / kBandSamples)), 1, drawn_->height);
   const StateGuard guard(context_.functions());
-  allocate(finer.picture, drawn_->width, drawn_->height);
+  allocate(finer.picture, finer.wanted);
   finer_ = std::move(finer);
 }
 
@@ -383,12 +420,16 @@ void SceneDisplay::copyFinerTo(int x, int width) const {
 }
 
 void SceneDisplay::copyPicture(const gl::Functions& fn, const Picture& picture, int x, int most) {
-  const int width = std::min(picture.width, most), height = picture.height;
+  const int width = std::min(picture.place_width, most), height = picture.place_height;
   if (width <= 0) return;
+  const bool coarse = picture.width != picture.place_width;
+  const int columns =
+      coarse ? (width * picture.width + picture.place_width - 1) / picture.place_width : width;
   GLint read = 0;
   fn.GetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read);
   fn.BindFramebuffer(GL_READ_FRAMEBUFFER, picture.framebuffer.id());
-  fn.BlitFramebuffer(0, 0, width, height, x, 0, x + width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  fn.BlitFramebuffer(0, 0, columns, picture.height, x, 0, x + width, height, GL_COLOR_BUFFER_BIT,
+                     coarse ? GL_LINEAR : GL_NEAREST);
   fn.BindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read));
 }
 

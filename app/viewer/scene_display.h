@@ -3,7 +3,8 @@
 // frame.
 //
 // Where this takes longer than a window may be held up, it goes on in slices: the snapshot's upload,
-// triangles, then rows of pixels, until the picture is whole. The one before is shown meanwhile.
+// triangles, then rows of pixels, until the picture is whole. The one before is shown meanwhile. A camera
+// that moves may have coarse pictures, which come sooner.
 #pragma once
 
 #include <cstdint>
@@ -60,6 +61,7 @@ class SceneDisplay {
     DisplaySettings settings;
     int width = 0, height = 0;  ///< [px]
     int samples = 1;            ///< along a pixel's side
+    int divisor = 1;            ///< pixels along the side of one that is drawn; a finer picture does too
   };
   /// Draws at once, however long it takes.
   static constexpr double kAtOnce = std::numeric_limits<double>::infinity();
@@ -69,9 +71,9 @@ class SceneDisplay {
   /// glide of the exposure (negative: no glide). Returns whether there was anything to do.
   bool draw(const Wanted& wanted, double seconds, double deadline);
   /// Whether draw() would have something to do, not counting a glide of the exposure.
-  bool outdated(const Wanted& wanted) const { return drawing() || (differs(wanted) && !waits(wanted)); }
+  bool outdated(const Wanted& wanted) const;
   /// Whether it waits for what shows the mesh itself (mesh_marks.h), which is found beside the window where
-  /// the mesh is large. The picture before stays meanwhile.
+  /// the mesh is large. The display before stays meanwhile, and follows the camera.
   bool waits(const Wanted& wanted) const;
   /// Since when [wallSeconds()] something is waited for; none where nothing is.
   std::optional<double> waitingSince() const;
@@ -83,13 +85,15 @@ class SceneDisplay {
   bool drawing() const { return making_ || view_.uploadBytes() > 0; }
   /// Whether the picture shown was drawn for itself, not only exposed anew.
   bool drawnAnew() const { return drawn_anew_; }
+  /// Whether it has fewer pixels than its place in the window.
+  bool coarse() const { return shown_.width != shown_.place_width; }
   /// The camera of the picture that is shown; that of the viewer may be ahead.
   const Camera& shownCamera() const { return shown_camera_; }
   /// Once the picture is up to date: draws it again in bands, with `samples` along a pixel's side, so that a
   /// software renderer smooths edges without holding the window up. To the end of a band or to `deadline`.
   void sharpen(int samples, double deadline);
   /// Whether nothing is left to sharpen.
-  bool sharp() const { return !drawn_ || drawing() || bands_.next >= kBands; }
+  bool sharp() const { return !drawn_ || drawing() || coarse() || bands_.next >= kBands; }
 
   // The picture that is shown once more, finer, for a file. It stays of the camera and with the exposure of
   // the moment when it was begun, whatever is drawn meanwhile. Until it is whole or ended no other snapshot
@@ -127,7 +131,8 @@ class SceneDisplay {
   struct Picture {
     gl::Texture texture;
     gl::Framebuffer framebuffer;
-    int width = 0, height = 0;
+    int width = 0, height = 0;              // [px]
+    int place_width = 0, place_height = 0;  // in the window
   };
   struct Making {
     Wanted wanted;
@@ -152,6 +157,7 @@ class SceneDisplay {
 
   bool differs(const Wanted& wanted) const;
   bool marksStand(const Wanted& wanted);
+  std::optional<Wanted> meanwhile(const Wanted& wanted) const;
   bool sampled(const Wanted& wanted) const;
   void begin(const Wanted& wanted);
   double extended(double deadline);
@@ -164,7 +170,7 @@ class SceneDisplay {
                   std::size_t& piece, Pace& pace, double deadline);
   bool drawBand(Bands& bands, const Wanted& finer, double exposure, const Picture& into, double deadline);
   static void copyPicture(const gl::Functions& fn, const Picture& picture, int x, int most);
-  void allocate(Picture& picture, int width, int height);
+  void allocate(Picture& picture, const Wanted& wanted);
   double nextExposure(double metered, double seconds);
 
   /// Marks of the mesh that are being found.

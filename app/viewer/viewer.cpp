@@ -88,6 +88,7 @@ void Viewer::update(double now) {
     screenshots_.drop();
   }
   takeState(now);
+  followRest(now);
   followTeaching();
   runScript(now);
   followLoads();
@@ -95,7 +96,7 @@ void Viewer::update(double now) {
   if (ending()) session_.beginClosing();
   if (watch_.look(now)) input();
   followHint(now);
-  keepMovedCamera(now);
+  keepWhatRests(now);
   fitToShape(now);
   if (const std::string lost = memory_.takeComplaint(); !lost.empty()) notice(lost);
   if (notice_.expire(now)) input();

@@ -164,6 +164,8 @@ class Viewer {
   const Camera& shownCamera() const { return scene_.shownCamera(); }
   const std::shared_ptr<const Snapshot>& shownSnapshot() const { return scene_.snapshot(); }
   bool drawingScene() const { return scene_.drawing(); }
+  /// With fewer pixels than its part of the window, as while the camera moves.
+  bool coarseScene() const { return scene_.coarse(); }
   /// The letter on a key that goes by its place: `key` itself where none is known.
   char printedOn(char key) const;
   double scale() const { return scale_; }
@@ -304,6 +306,13 @@ class Viewer {
     int width;  ///< of the picture [px]
     glm::dvec2 at;
   };
+  /// What is remembered of the panel.
+  struct PanelLook {
+    double scale = 1;
+    std::vector<bool> switches;
+    std::vector<std::pair<ImGuiID, int>> sections;
+    bool operator==(const PanelLook&) const = default;
+  };
   struct RatePoint {
     double time;
     std::uint64_t shots, rows;
@@ -353,15 +362,19 @@ class Viewer {
   void fitToShape(double now);
   bool recallCamera();
   void rememberCamera(const SessionState& state);
+  double nextCameraKept() const;
   double nextKeeping() const;
-  void keepMovedCamera(double now);
+  void keepWhatRests(double now);
   void followHint(double now);
   void endHint();
   void recallPanel();
   void rememberPanel();
+  PanelLook panelLook() const;
   ReferencePicture::Look referenceLook() const;
   double nextMeasure() const;
   void measureReference(double now);
+  void noteMotion();
+  void followRest(double now);
   void followLoads();
   void sendReferencePicture(double deadline);
   /// Whether some are read or written that were asked for.
@@ -411,6 +424,8 @@ class Viewer {
   bool sections_restored_ = false;
   double hint_until_ = 0;  // 0: the scene is not there yet
   std::vector<std::pair<ImGuiID, int>> sections_;
+  PanelLook panel_seen_;
+  double panel_changed_at_ = kNever;  // from what is written
 
   // Frames.
   int gui_frames_ = kFramesAfterInput;
@@ -419,7 +434,10 @@ class Viewer {
   double last_scene_ = 0, last_scene_work_ = 0;  // begin and end of the last work on the scene
   int scene_width_ = 0, scene_height_ = 0;       // [px]
   double frame_cost_ = 0;                        // of a picture of the scene and the frame that shows it [s]
+  double fine_cost_ = 0;                         // of the last one with all its pixels
   double picture_cost_ = 0;                      // of the one being drawn, so far
+  bool coarse_ = false;                          // pictures are, while the camera moves
+  Camera seen_camera_;                           // that of the last frame
   std::optional<PaintedLook> painted_;
   bool drew_scene_ = false;  // since the last frame
 

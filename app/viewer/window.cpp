@@ -153,6 +153,18 @@ void resize(GLFWwindow* window, int width, int height) {
                     static_cast<int>(std::lround(unit * height)));
 }
 
+/// The size of a first window on a screen with a larger scale, where the window system counts in pixels.
+void fitToScale(GLFWwindow* window, const WindowOptions& options, double scale) {
+  int units = 0, pixels = 0;
+  glfwGetWindowSize(window, &units, nullptr);
+  glfwGetFramebufferSize(window, &pixels, nullptr);
+  if (options.size_given || scale <= 1 || units != pixels) return;
+  WindowOptions larger{static_cast<int>(std::lround(scale * options.width)),
+                       static_cast<int>(std::lround(scale * options.height)), false};
+  fitToScreen(larger);
+  glfwSetWindowSize(window, larger.width, larger.height);
+}
+
 void runLoop(Receiver& receiver, GLFWwindow* window) {
   Viewer& viewer = receiver.viewer;
   while (!viewer.closing()) {
@@ -215,6 +227,7 @@ int runWindow(ViewerSetup setup, const WindowOptions& wanted) {
       float scale = 1;
       glfwGetWindowContentScale(window, &scale, nullptr);
       viewer.setScreenScale(scale);
+      fitToScale(window, options, scale);
       try {
         runLoop(receiver, window);
       } catch (...) {

@@ -24,6 +24,7 @@ class Controls : public testing::Test {
  protected:
   Controls() : live_(options()) {
     EXPECT_TRUE(live_.untilPhase(SessionPhase::kConverged));
+    openSections(*live_);
     rest();
   }
 
@@ -32,7 +33,7 @@ class Controls : public testing::Test {
     options.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
     options.solve.elements = 200;
     options.solve.error = 0.1;
-    options.width = 700;
+    options.width = 1004;
     options.height = 2000;  // all of the panel is in it: what is not cannot be clicked
     return options;
   }
@@ -217,6 +218,7 @@ TEST_F(Controls, WhatTheMouseRestsOnSaysWhatItIs) {
 // In a small window too, whose edges are near everywhere.
 TEST_F(Controls, TooltipsStayWithinASmallWindow) {
   act("size", "640x360");
+  act("panel", "on");  // over the scene
   const ImGuiWindow* panel = childOf("panel", "sections");
   ASSERT_TRUE(panel);
   int tips = 0;
@@ -239,11 +241,13 @@ TEST(ControlsOfTheWindow, FollowTheMouse) {
     LiveViewer::Options options;
     options.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
     options.solve.elements = 300;
-    options.width = 700;
+    options.width = 1004;
     options.height = 1050;
     LiveViewer model(options);
     ASSERT_TRUE(model.untilPhase(SessionPhase::kConverged));
+    openSection(model->ui(), "camera", true);
     ASSERT_TRUE(model.until([&] { return model->nextFrame(0) > 1e30; }));
+    for (int frame = 0; frame < 3; ++frame) model.draw();
     const ImGuiWindow* panel = childOf("panel", "sections");
     ASSERT_TRUE(panel);
     for (float y = panel->InnerRect.Min.y; y < panel->InnerRect.Max.y; y += kMouseStep) {
@@ -258,7 +262,9 @@ TEST(ControlsOfTheWindow, FollowTheMouse) {
   }
   ASSERT_TRUE(places.contains("##exposure") && places.contains("##angle"));
   const Screen screen;
-  WindowRun run({"--size", "700x1050", "--elements", "300"});
+  const TempFolder folder;
+  WindowRun run({"--size", "1004x1050", "--elements", "300", "--script",
+                 folder.write("camera.script", "section camera on\n")});
   ASSERT_TRUE(run.hasTitle("cornell_box \u2013 Unshot"));
   std::string scene = run.sceneAtRest();
   const auto move = [&](const ImVec2& at) {
@@ -282,7 +288,7 @@ TEST(ControlsOfTheWindow, FollowTheMouse) {
   const auto picture = [&] { return run.folder().read(run.screenshot("F12")); };
   move({200, 300});
   const std::string without = picture();
-  move({700 - 304 + 30, places.at("##exposure").y});
+  move({1004 - 304 + 30, places.at("##exposure").y});
   EXPECT_TRUE(eventually([&] { return picture() != without || HasFailure(); })) << "no tooltip";
   run.key("ctrl+q");
   EXPECT_EQ(run.end().code, 0);

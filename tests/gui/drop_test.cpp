@@ -47,7 +47,7 @@ class Drop : public testing::Test {
 
   const Screen screen_;
   const TempFolder files_;
-  WindowRun run_{{"--size", "640x480", "--elements", "20000", "--error", "1e-9", "--keep", "0"}};
+  WindowRun run_{{"--size", "960x480", "--elements", "20000", "--error", "1e-9", "--keep", "0"}};
   DragSource source_;
   ProgramResult result_;
 };

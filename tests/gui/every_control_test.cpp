@@ -38,7 +38,7 @@ class EveryControl : public testing::Test {
     options.solve.elements = 150;
     options.solve.error = 0.3;
     options.solve.form_factors = "hemicube";
-    options.width = 640;
+    options.width = 1004;
     options.height = 2600;  // all of the panel is in it
     return options;
   }
@@ -199,6 +199,7 @@ class EveryControlOfThePanel : public EveryControl {
 
 TEST_F(EveryControlOfThePanel, CanBeUsed) {
   ASSERT_TRUE(solved());
+  openSections(*live_);
   act("complete-bounces");
   restore();
   const ImGuiWindow* panel = childOf("panel", "sections");

@@ -5,8 +5,10 @@
 #include <tuple>
 
 #include "base/clock.h"
+#include "export/image_files.h"
 #include "render/element_edges.h"
 #include "support/live_viewer.h"
+#include "support/temp_folder.h"
 
 namespace unshot {
 namespace {
@@ -56,6 +58,21 @@ TEST_F(ViewerFrames, AnswerWhileThePictureIsMade) {
   EXPECT_TRUE(live_.until([this] { return live_->nextFrame(0) > 1e30; }));
   EXPECT_NE(live_->shownCamera().eye, before);
   EXPECT_EQ(live_->shownCamera().eye, live_->camera().eye);
+}
+
+TEST_F(ViewerFrames, AreCoarseWhileTheCameraMovesAndFineAtRestAndInFiles) {
+  const testing_support::TempFolder folder;
+  const std::string moving = folder / "moving.png", at_rest = folder / "at_rest.png";
+  live_->navigator().orbit({40, 0}, 240);
+  live_->input();
+  ASSERT_TRUE(live_.until([this] { return live_->shownCamera().eye == live_->camera().eye; }));
+  EXPECT_TRUE(live_->coarseScene());
+  live_.performAndWait("screenshot-scene", moving);
+  ASSERT_TRUE(live_.until([this] { return live_->nextFrame(0) > 1e30; }));
+  EXPECT_FALSE(live_->coarseScene());
+  EXPECT_EQ(live_->shownCamera().eye, live_->camera().eye);
+  live_.performAndWait("screenshot-scene", at_rest);
+  EXPECT_EQ(readImage(moving).rgb, readImage(at_rest).rgb);
 }
 
 TEST_F(ViewerFrames, InputsWithoutAPauseDoNotStarveThePicture) {

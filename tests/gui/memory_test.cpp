@@ -194,5 +194,31 @@ TEST_F(RememberingViewer, FindsThePanelAsItWasLeft) {
   EXPECT_EQ(open.at(4000000000u), 1);
 }
 
+// What a crash would not cost.
+TEST_F(RememberingViewer, KeepsThePanelWhileItIsOpen) {
+  const Memory memory(folder_.path());
+  std::string sections;
+  {
+    LiveViewer::Options wide = options();
+    wide.width = 1000;
+    wide.height = 700;
+    LiveViewer live(wide);
+    untilFramed(live);
+    EXPECT_FALSE(memory.setting("scale")) << "nothing was changed";
+    live->perform("scale", "1.1");
+    live->perform("section", "solve off");
+    ASSERT_TRUE(live.until([&] { return memory.setting("scale") == "1.1"; }, 20));
+    sections = memory.setting("sections").value_or("");
+    EXPECT_THAT(sections, testing::HasSubstr("-"));
+    live->perform("section", "solve on");
+    ASSERT_TRUE(live.until([&] { return memory.setting("sections") != sections; }, 20));
+    sections = *memory.setting("sections");
+  }
+  LiveViewer narrow(options());
+  untilFramed(narrow);
+  narrow->finish();
+  EXPECT_EQ(memory.setting("sections"), sections) << "a window without room for the panel forgets them";
+}
+
 }  // namespace
 }  // namespace unshot

@@ -126,7 +126,7 @@ LiveViewer::Options box() {
   LiveViewer::Options options;
   options.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
   options.solve.elements = 300;
-  options.width = 800;
+  options.width = 1000;
   options.height = 600;
   return options;
 }

@@ -35,18 +35,18 @@ TEST(Program, OpensConvergesAndTakesScreenshots) {
                                       "wait converged\nscreenshot all.png\nscreenshot-scene scene.png\n"
                                       "panel off\nscreenshot-scene wide.png\nscreenshot\nscreenshot\n"
                                       "screenshot-scene last.png\n",
-                                      {kCornellBox, "--elements", "300", "--size", "640x300"});
+                                      {kCornellBox, "--elements", "300", "--size", "960x300"});
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(run.err, "");
   EXPECT_EQ(folder.names(),
             (std::set<std::string>{"script.txt", "all.png", "scene.png", "wide.png", "last.png",
                                    "unshot-cornell_box-001.png", "unshot-cornell_box-002.png"}));
   const ImageF all = picture(folder, "all.png"), scene = picture(folder, "scene.png");
-  EXPECT_EQ(all.width, 640);
+  EXPECT_EQ(all.width, 960);
   EXPECT_EQ(all.height, 300);
-  EXPECT_EQ(scene.width, 640 - 304) << "without the panel";
+  EXPECT_EQ(scene.width, 960 - 304) << "without the panel";
   EXPECT_EQ(scene.height, 300);
-  EXPECT_EQ(picture(folder, "wide.png").width, 640);
+  EXPECT_EQ(picture(folder, "wide.png").width, 960);
   EXPECT_EQ(folder.read("wide.png"), folder.read("last.png"));
   EXPECT_TRUE(showsSomething(scene));
 }
@@ -189,13 +189,13 @@ TEST(Program, SizeAndScale) {
   const TempFolder folder;
   const ProgramResult run = runScript(
       folder,
-      "pause on\nstep\nwait shots 1\nscreenshot small.png\nsize 1300x600\nscale 2\nscreenshot large.png\n"
+      "pause on\nstep\nwait shots 1\nscreenshot small.png\nsize 1900x600\nscale 2\nscreenshot large.png\n"
       "screenshot-scene large_scene.png\nscale 1\nscreenshot-scene scene.png\nsize 400x300\n"
       "screenshot small_again.png\n",
       kSmall);
   ASSERT_EQ(run.code, 0) << run.err;
   const ImageF large = picture(folder, "large.png");
-  EXPECT_EQ(large.width, 1300);
+  EXPECT_EQ(large.width, 1900);
   EXPECT_EQ(large.height, 600);
   EXPECT_LT(picture(folder, "large_scene.png").width, picture(folder, "scene.png").width);
   EXPECT_EQ(picture(folder, "small_again.png").width, 400);

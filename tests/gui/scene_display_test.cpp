@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdlib>
+
 #include "base/clock.h"
 #include "gl/context.h"
 #include "mesh/build.h"
@@ -112,6 +115,77 @@ TEST_F(SceneDisplays, ThePictureBeforeAndItsCameraStayUntilTheNextIsWhole) {
   }
   EXPECT_NE(pixels(display), before);
   EXPECT_EQ(display.shownCamera().eye, wanted_.camera.eye);
+}
+
+TEST_F(SceneDisplays, CoarsePicturesShowTheSameAndAreNoMoreThanAsked) {
+  SceneDisplay fine(*context_), coarse(*context_);
+  for (SceneDisplay* display : {&fine, &coarse}) display->setSnapshot(snapshot_);
+  fine.draw(wanted_, -1, SceneDisplay::kAtOnce);
+  const std::vector<std::uint8_t> all = pixels(fine);
+  for (const int divisor : {2, 3}) {  // the height and the width are no multiples of 3
+    SCOPED_TRACE(divisor);
+    wanted_.divisor = divisor;
+    drawSlowly(coarse);
+    EXPECT_TRUE(coarse.coarse());
+    EXPECT_TRUE(coarse.sharp()) << "at rest another one takes its place";
+    const std::vector<std::uint8_t> few = pixels(coarse);
+    std::size_t difference = 0, far = 0;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const int d = std::abs(all[k] - few[k]);
+      difference += static_cast<std::size_t>(d);
+      far += d > 40;
+    }
+    EXPECT_GT(difference, 0u);
+    EXPECT_LT(far, all.size() / 12) << "moved or out of place";
+    wanted_.divisor = 1;
+    EXPECT_TRUE(coarse.outdated(wanted_));
+    coarse.draw(wanted_, -1, SceneDisplay::kAtOnce);
+    EXPECT_FALSE(coarse.coarse());
+    EXPECT_LE(std::abs(std::log2(coarse.exposure() / fine.exposure())), 0.02);
+    wanted_.divisor = 2;
+    EXPECT_FALSE(coarse.outdated(wanted_)) << "a fine picture does";
+    wanted_.camera.eye.x += 1e-9;
+  }
+}
+
+TEST_F(SceneDisplays, AFinePictureInTheMakingGivesWayToACameraThatMoves) {
+  SceneDisplay display(*context_);
+  display.setSnapshot(snapshot_);
+  drawSlowly(display);
+  wanted_.camera.eye.x += 50;
+  display.draw(wanted_, -1, wallSeconds());
+  ASSERT_TRUE(display.drawing());
+  wanted_.camera.eye.x += 50;
+  wanted_.divisor = 2;
+  while (display.drawing()) display.draw(wanted_, -1, wallSeconds());
+  EXPECT_EQ(display.shownCamera().eye, wanted_.camera.eye) << "the one before was drawn to its end";
+}
+
+// The display before follows the camera until they are found.
+TEST_F(SceneDisplays, MarksThatAreBeingFoundDoNotHoldTheCameraUp) {
+  const Scene scene = readObj(UNSHOT_SOURCE_DIR "/assets/cornell_box.obj");
+  snapshot_ = state(std::make_shared<Mesh>(buildMesh(scene, {300'000, {}, false})), 1);
+  SceneDisplay display(*context_);
+  display.setSnapshot(snapshot_);
+  display.draw(wanted_, -1, SceneDisplay::kAtOnce);
+  for (const char* mode : {"mesh", "patches"}) {
+    SCOPED_TRACE(mode);
+    const std::string before = display.shownDisplay();
+    wanted_.settings.view.display = mode;
+    EXPECT_FALSE(display.draw(wanted_, -1, SceneDisplay::kAtOnce)) << "nothing moved";
+    wanted_.camera.eye.x += 50;
+    if (display.waits(wanted_)) {
+      EXPECT_TRUE(display.outdated(wanted_));
+      EXPECT_TRUE(display.draw(wanted_, -1, SceneDisplay::kAtOnce));
+      EXPECT_EQ(display.shownCamera().eye, wanted_.camera.eye);
+      EXPECT_EQ(display.shownDisplay(), before);
+    } else {
+      ADD_FAILURE() << "found too soon for this test";
+    }
+    while (display.waits(wanted_)) display.draw(wanted_, -1, wallSeconds());
+    while (display.outdated(wanted_)) display.draw(wanted_, -1, wallSeconds());
+    EXPECT_EQ(display.shownDisplay(), mode);
+  }
 }
 
 TEST_F(SceneDisplays, AtOnceIsOfTheNewestStateWhateverWasBegun) {

@@ -22,8 +22,8 @@ LiveViewer::Options boxWithTips() {
   options.solve.error = 0.05;
   options.script =
       "wait converged\ncomplete-bounces\nwait converged\npick 0.45,0.6\npin-probe\nsection messages on\n";
-  options.width = 700;
-  options.height = 2400;  // all of the panel is in it
+  options.width = 1000;
+  options.height = 2600;  // all of the panel is in it
   return options;
 }
 
@@ -32,6 +32,7 @@ class Tips : public testing::Test {
   void SetUp() override {
     ASSERT_TRUE(live_.until([&] { return live_->scriptDone(); }));
     ASSERT_TRUE(live_.until([&] { return !live_->state().bounces_under_way; }));
+    openSections(*live_);
     mouse_.rest();
   }
   /// Of what is there; empty where it has none.
@@ -155,6 +156,9 @@ TEST_F(Tips, OfFormFactorsHaveTheLecturesSymbol) {
   EXPECT_THAT(tip, HasSubstr("\u0394G="));
   EXPECT_THAT(tip, HasSubstr("G_ij="));
   EXPECT_THAT(tip, Not(HasSubstr("F=")));
+  const float em = ImGui::GetFontSize();
+  EXPECT_THAT(tipAt({box.Min.x + 2 * em, box.Min.y + 1.1f * em}), HasSubstr("128pixels"))
+      << "how it is traced";
   for (const LecturePageRow& row : lecturePages()) EXPECT_THAT(row.info.help, Not(HasSubstr("F B")));
   for (const HemicubePictureRow& row : hemicubePictures()) EXPECT_THAT(row.info.help, Not(HasSubstr(" F")));
 }

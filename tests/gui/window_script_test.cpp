@@ -65,7 +65,7 @@ TEST(WindowScript, EveryActionOfTheTableIsPerformed) {
     if (!action.needsArgument())
       script += key + "\n" + (key == "pause" ? "pause off\n" : "") + "wait converged\n";
   }
-  runInWindow(folder, script + "quit\n", "640x360");
+  runInWindow(folder, script + "quit\n", "940x640");
   for (const char* name : {"with.png", "without.png", "with.unshot", "with.mtl", "with.csv"})
     EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
 }
@@ -126,7 +126,7 @@ TEST(WindowScript, EveryDisplayModeShowsAPictureOfItsOwn) {
 class PanelChoices : public testing::Test {
  protected:
   static constexpr int kWidth = 900, kLeft = kWidth - kPanel;
-  static constexpr int kScene = 21, kMode = 125, kMethod = 177, kShow = 551;
+  static constexpr int kScene = 21, kMode = 125, kMethod = 177, kShow = 333;
 
   void click(int x, int y) {
     xdotool("mousemove --window " + run_.window() + " " + std::to_string(x) + " " + std::to_string(y) +

@@ -24,7 +24,7 @@ const std::string kTitle = "cornell_box \u2013 Unshot";
 
 // Solves for minutes, and each shot changes the picture of the unshot light, which has an exposure of its
 // own.
-const std::vector<std::string> kLongSolve{"--size", "640x360", "--display", "unshot", "--elements",
+const std::vector<std::string> kLongSolve{"--size", "960x360", "--display", "unshot", "--elements",
                                           "20000",  "--error", "1e-9",      "--keep", "0"};
 
 class Window : public testing::Test {
@@ -167,15 +167,15 @@ TEST_F(Window, MouseAndFlight) {
 }
 
 TEST_F(Window, ScreenshotsAreNumberedAndHaveTheWindowsSize) {
-  WindowRun run({"--size", "640x480", "--elements", "500"});
+  WindowRun run({"--size", "960x480", "--elements", "500"});
   ASSERT_TRUE(run.hasTitle(kTitle));
   EXPECT_EQ(run.screenshot("F12"), "unshot-cornell_box-001.png");
   EXPECT_EQ(run.screenshot("ctrl+F12"), "unshot-cornell_box-002.png");
   const ImageF with = readImage(run.folder().path() / "unshot-cornell_box-001.png");
   const ImageF without = readImage(run.folder().path() / "unshot-cornell_box-002.png");
-  EXPECT_EQ(with.width, 640);
+  EXPECT_EQ(with.width, 960);
   EXPECT_EQ(with.height, 480);
-  EXPECT_LT(without.width, 640);
+  EXPECT_LT(without.width, 960);
   EXPECT_EQ(without.height, 480);
   struct Size {
     int width, height;

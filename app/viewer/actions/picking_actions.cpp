@@ -30,7 +30,7 @@ std::span<const Action> pickingActions() {
        [](Viewer& v, const std::string&) { v.pinProbe(); }},
       {"save-probes",
        "[PATH]",
-       "Write the probes and their B as CSV (as unshot solve --probe-out)",
+       "Write the probes and their B as CSV",
        {},
        [](Viewer& v, const std::string& a) { v.saveProbes(a); },
        nullptr,

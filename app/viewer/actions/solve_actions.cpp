@@ -96,7 +96,7 @@ std::span<const Action> solveActions() {
        [](Viewer& v, const std::string&) { v.shootAgain(); }},
       {"save-solve",
        "[PATH]",
-       "Save the solve, to go on later (unshot view or solve --resume)",
+       "Save the solve; opened later, it goes on",
        {GLFW_KEY_S, true, "Ctrl+S"},
        [](Viewer& v, const std::string& a) { v.saveSolve(a); }},
       {"mode",

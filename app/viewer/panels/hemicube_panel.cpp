@@ -144,7 +144,10 @@ void buildHemicube(Viewer& viewer, LowerEdge& edge) {
   ImGui::TextDisabled("Hemicube");
   tooltip(
       "What a patch sees through the five faces of half a cube, unfolded: the top in the middle, horizons "
-      "outside");
+      "outside. Traced with rays, " +
+      std::to_string(HemicubeEye::kLayout.resolution) +
+      " pixels along an edge, whatever the solve takes: its own hemicubes may be finer or coarser, and are "
+      "drawn by OpenGL where that is faster");
   const float button = ImGui::CalcTextSize("\u00d7").x + 2 * ImGui::GetStyle().FramePadding.x;
   ImGui::SameLine(ImGui::GetCursorStartPos().x + side - button);
   if (ImGui::SmallButton("\u00d7")) viewer.perform("hemicube-view", "off");

@@ -11,7 +11,7 @@
 namespace unshot {
 namespace {
 
-constexpr double kPanelWidth = 304;  // at scale 1 [px]
+constexpr double kPanelWidth = 304, kLeastWindow = 900;  // at scale 1 [px]
 
 void head(Viewer& viewer) {
   const SessionState& state = viewer.state();
@@ -54,8 +54,8 @@ void head(Viewer& viewer) {
 
 int panelWidth(double scale) { return static_cast<int>(std::lround(kPanelWidth * scale)); }
 
-// Beside a cramped panel there would be no scene.
-int leastWindowWithPanel(double scale) { return 2 * panelWidth(scale); }
+// The scene has most of the window.
+int leastWindowWithPanel(double scale) { return static_cast<int>(std::lround(kLeastWindow * scale)); }
 
 void buildSidePanel(Viewer& viewer, int left) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;

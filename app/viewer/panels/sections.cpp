@@ -21,15 +21,16 @@
 namespace unshot {
 
 std::span<const PanelSection> panelSections() {
-  // Warnings stand first, notes alone near the end; one switch opens both.
+  // Warnings stand first, notes alone near the end; one switch opens both. What was asked for by a click is
+  // open.
   static constexpr std::array<PanelSection, 17> table = {{
       {{"warnings", "Warnings on the scene", ""}, warningsSection, &ViewerState::notes},
-      {{"picked", "Picked", ""}, pickedSection, nullptr, "###Picked"},
-      {{"probes", "Probes", ""}, probesSection, nullptr, "###probes"},
-      {{"solve", "Solve", ""}, solveSection, nullptr, "Solve"},
+      {{"picked", "Picked", ""}, pickedSection, nullptr, "###Picked", true},
+      {{"probes", "Probes", ""}, probesSection, nullptr, "###probes", true},
+      {{"solve", "Solve", ""}, solveSection, nullptr, "Solve", true},
       {{"errors", "Errors", ""}, errorsSection, nullptr, "###Errors"},
       {{"convergence", "Convergence", ""}, convergenceSection, nullptr, "Convergence"},
-      {{"display", "Display", ""}, displaySection, nullptr, "Display"},
+      {{"display", "Display", ""}, displaySection, nullptr, "Display", true},
       {{"mesh", "Mesh", ""}, meshSection, nullptr, "Mesh"},
       {{"camera", "Camera", ""}, cameraSection, nullptr, "Camera"},
       {{"scene", "Scene", ""}, sceneSection, nullptr, "Scene"},
@@ -56,9 +57,7 @@ bool change(ViewerState& ui, const PanelSection& row, std::optional<bool> wanted
   if (row.open) return ui.*row.open = wanted.value_or(!(ui.*row.open));
   ImGuiStorage& storage = *ImGui::GetStateStorage();
   const ImGuiID id = ImGui::GetID(row.label);
-  // All but the messages are open at first.
-  const bool messages = row.info.key == "messages";
-  const bool open = wanted.value_or(storage.GetInt(id, messages ? 0 : 1) == 0);
+  const bool open = wanted.value_or(storage.GetInt(id, row.at_first ? 1 : 0) == 0);
   storage.SetInt(id, open ? 1 : 0);
   return open;
 }
@@ -74,6 +73,7 @@ void buildSections(Viewer& viewer) {
   }
   for (const PanelSection& row : panelSections()) {
     const float top = ImGui::GetCursorPosY();
+    if (!row.open) ImGui::SetNextItemOpen(row.at_first, ImGuiCond_FirstUseEver);
     row.build(viewer);
     if (row.info.key == scroll_to) ImGui::SetScrollFromPosY(top - ImGui::GetScrollY(), 0);
   }

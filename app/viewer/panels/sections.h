@@ -14,6 +14,7 @@ struct PanelSection {
   /// Whether it is open: a switch of its own, or what ImGui keeps for the header of this label.
   bool ViewerState::*open = nullptr;
   const char* label = nullptr;
+  bool at_first = false;  ///< open where nobody has opened or closed it yet
 };
 std::span<const PanelSection> panelSections();
 

@@ -108,14 +108,10 @@ PhaseLook phaseLook(const SessionState& state) {
 
 namespace {
 
-/// That the panel has no room, and what shows it all the same, as much of it as is no wider than this; empty
-/// where the panel is there.
+/// What shows the panel where it has no room, as much of it as is no wider than this; empty where the panel
+/// is there.
 std::string missingPanel(const Viewer& viewer, float room) {
   if (viewer.teaching().choices.lecture || panelHasRoom(viewer)) return {};
-  for (const char* text : {"no room for the panel beside the scene: Tab lays it over it",
-                           "no room for the panel: Tab lays it over"}) {
-    if (ImGui::CalcTextSize(text).x <= room) return text;
-  }
   return shortened("Tab: the panel", room);
 }
 
@@ -174,8 +170,8 @@ float buildStatusLine(Viewer& viewer, int scene_width) {
   if (!no_panel.empty()) {
     if (!cramped) ImGui::SameLine(0, kGapOfParts * em);
     ImGui::TextUnformatted(no_panel.c_str());
+    at = ImGui::GetItemRectMax().x + kGapOfParts * em;
     missingPanelTip(viewer);
-    at = end;
   }
   for (const Part& part : partsOf(viewer)) {
     const float width =

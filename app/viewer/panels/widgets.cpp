@@ -9,7 +9,7 @@
 
 namespace unshot {
 
-bool section(const char* title) { return ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen); }
+bool section(const char* title) { return ImGui::CollapsingHeader(title); }
 
 void tooltip(std::string_view text) {
   if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;

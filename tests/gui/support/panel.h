@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <string>
 
+#include "viewer/panels/sections.h"
+
 namespace unshot::testing_support {
 
 inline constexpr int kPanel = 304;  ///< its width at scale 1, as app/viewer/panels/panels.cpp has it [px]
@@ -18,6 +20,14 @@ inline ImGuiID idOf(const std::string& path, ImGuiID within) {
     at = end + 1;
   }
   return within;
+}
+
+/// For tests of what is in them: all but those that have a switch of their own, and the messages.
+inline void openSections(Viewer& viewer) {
+  for (const PanelSection& section : panelSections()) {
+    if (!section.open && section.info.key != "messages")
+      openSection(viewer.ui(), std::string(section.info.key), true);
+  }
 }
 
 }  // namespace unshot::testing_support
