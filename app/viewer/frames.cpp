@@ -228,7 +228,10 @@ bool Viewer::draw(GLuint framebuffer, int width, int height) {
   const bool covered = beside.over > 0;
   const float bottom =
       static_cast<float>(height) - (ui_.clean || covered ? 0 : buildStatusLine(*this, scene_width_));
-  LowerEdge edge(static_cast<float>(scene_width_), belowNames(*this), bottom);
+  // What is to be read stands beside a panel that lies over the scene, where there is room.
+  const int uncovered = scene_width_ - beside.over;
+  const bool beside_panel = covered && uncovered >= beside.over;
+  LowerEdge edge(static_cast<float>(beside_panel ? uncovered : scene_width_), belowNames(*this), bottom);
   if (!ui_.clean) buildSidePanel(*this, width - beside.panel - beside.over);
   if (!ui_.clean && !covered) {
     buildFalseColourLegend(*this, edge);
