@@ -62,7 +62,7 @@ LocalPass::LocalPass(const Mesh& mesh, const Receivers& receivers, bool occlusio
       places_(placesOf(receivers, receivers.reachedBy(false))),
       tree_(places_),
       workers_(std::move(workers)),
-      scratch_(workers_ ? workers_->count() : 1) {
+      hands_(workers_ ? workers_->count() : 1) {
   makeGroups();
   looks_.resize(mesh.patch_count);
 }
@@ -126,7 +126,8 @@ void LocalPass::findAhead(const Transport& transport) {
     patches.push_back(found_until_);
   }
   workers_->run(patches.size(), [&](std::size_t k, unsigned worker) {
-    find(patches[k], looks_[patches[k]], scratch_[worker]);
+    find(patches[k], hands_[worker]);
+    looks_[patches[k]] = hands_[worker].found;
   });
   // What is kept is what one thread would have kept.
   for (const std::uint32_t q : patches) {
@@ -143,11 +144,15 @@ void LocalPass::gather(std::uint32_t q, const Column& column, const RowClosure& 
   const auto scale = [&](std::uint32_t v) {
     return closure.scale.empty() || closure.exact[q] ? 1.0 : static_cast<double>(closure.scale[v]);
   };
-  Looks* looks = &looks_[q];
-  if (!looks->found && kept_ >= kMostKept) looks = &unkept_;
-  if (!looks->found || looks == &unkept_) {
-    find(q, *looks, scratch_[0]);
-    if (looks != &unkept_) kept_ += looks->looks.size();
+  const Looks* looks = &looks_[q];
+  if (!looks->found) {
+    find(q, hands_[0]);
+    if (kept_ < kMostKept) {
+      looks_[q] = hands_[0].found;
+      kept_ += looks->looks.size();
+    } else {
+      looks = &hands_[0].found;
+    }
   }
   std::uint32_t next = 0;
   for (const Near& near : looks->near) {
@@ -165,7 +170,8 @@ glm::dvec3 LocalPass::lightOf(const Look& look) const {
   return glm::max(factor * element_light_[look.of] + more, glm::dvec3(0.0));
 }
 
-void LocalPass::find(std::uint32_t q, Looks& out, std::vector<glm::dvec3>& scratch) const {
+void LocalPass::find(std::uint32_t q, Hand& hand) const {
+  Looks& out = hand.found;
   out.found = true;
   out.near.clear();
   out.looks.clear();
@@ -174,7 +180,7 @@ void LocalPass::find(std::uint32_t q, Looks& out, std::vector<glm::dvec3>& scrat
   tree_.nearSegment(middle, middle, near_radii * polygons_.radius(q), [&](std::uint32_t place) {
     const std::uint32_t v = first_receiver_ + place;
     bool near = false;
-    for (const ReceiverView& view : receivers_.viewsOf(v)) near |= look(view, q, out.looks, scratch);
+    for (const ReceiverView& view : receivers_.viewsOf(v)) near |= look(view, q, out.looks, hand.scratch);
     if (near) out.near.push_back({v, static_cast<std::uint32_t>(out.looks.size())});
   });
 }

@@ -72,8 +72,13 @@ class LocalPass {
     std::vector<Look> looks;
   };
   void gather(std::uint32_t q, const Column& column, const RowClosure& closure);
+  // What one thread works with.
+  struct Hand {
+    Looks found;  // of the patch at hand; what is kept of it takes no more room than it needs
+    std::vector<glm::dvec3> scratch;
+  };
   void findAhead(const Transport& transport);
-  void find(std::uint32_t q, Looks& out, std::vector<glm::dvec3>& scratch) const;
+  void find(std::uint32_t q, Hand& hand) const;
   bool look(const ReceiverView& view, std::uint32_t q, std::vector<Look>& out,
             std::vector<glm::dvec3>& scratch) const;
   glm::dvec3 lightOf(const Look& look) const;
@@ -91,10 +96,9 @@ class LocalPass {
   ElementSlopes slopes_;                                               // and of its light
   std::vector<glm::dvec3> sum_, irradiance_;
   std::vector<Looks> looks_;  // one per patch
-  Looks unkept_;              // of the patch at hand, where there is no room
   std::size_t kept_ = 0;      // looks
   std::shared_ptr<Workers> workers_;
-  std::vector<std::vector<glm::dvec3>> scratch_;  // one per worker
+  std::vector<Hand> hands_;  // one per worker
   std::uint32_t next_ = kNone, found_until_ = 0;
 };
 
