@@ -6,8 +6,9 @@
 // Total: with weights z >= M^T (1 + z), sum A |e| <= sum A |U| z. M^T is known as far as columns are; in the
 // place of an unknown one stands what it could reflect at most if it sends no more of its light than nearly
 // all that are known do (PatchMatrix::usuallySent: 1 but for approximation), so that there is a bound from
-// the first shot on. An iteration z <- M^T (1 + z) keeps the inequality and lowers z. Weights y <= M^T (1 + y), raised from 0 along
-// the columns that are known, bound it from below: sum A e >= sum A max(U, 0) y - sum A max(-U, 0) z.
+// the first shot on. An iteration z <- M^T (1 + z) keeps the inequality and lowers z. Weights y <= M^T (1 +
+// y), raised from 0 along the columns that are known, bound it from below: sum A e >= sum A max(U, 0) y - sum
+// A max(-U, 0) z.
 //
 // Per patch, once all columns that matter are known: with v > 0 and w = v - M v > 0, |e| <= (v - w) max |U| /
 // w (comparison; Varga, Matrix Iterative Analysis, 3.5). v is near the solution of (I - M) v = 1: the

@@ -172,7 +172,7 @@ LiveViewer::Options boxToActOn() {
   LiveViewer::Options options;
   options.scene = kCornellBox;
   options.solve.elements = 200;
-  options.width = 640;
+  options.width = 904;  // the panel beside the scene
   options.height = 360;
   return options;
 }
