@@ -173,7 +173,7 @@ LiveViewer::Options boxToActOn() {
   options.scene = kCornellBox;
   options.solve.elements = 200;
   options.width = 904;  // the panel beside the scene
-  options.height = 360;
+  options.height = 640;
   return options;
 }
 
