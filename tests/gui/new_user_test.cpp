@@ -122,10 +122,7 @@ TEST(NewUser, OpensARoomOfTheirOwnWatchesItConvergeAndKeepsAPicture) {
   double most = 0;
   for (const float value : scene.rgb) most = std::max(most, static_cast<double>(value));
   EXPECT_GT(most, 0.5) << "dark";
-  run.key("ctrl+q");
-  const ProgramResult result = run.end();
-  EXPECT_EQ(result.code, 0);
-  EXPECT_EQ(result.err, "");
+  run.endsOn("ctrl+q");
 }
 
 }  // namespace

@@ -60,10 +60,7 @@ TEST(ScaledWindow, IsLaidOutTwiceAsLargeAndFollowsTheMouse) {
   xdotool("mousemove --sync " + std::to_string(left + 2 * 280) + y);
   EXPECT_TRUE(run.sceneChanges(all)) << "the slider does not follow the mouse";
   xdotool("mouseup 1");
-  run.key("ctrl+q");
-  const ProgramResult result = run.end();
-  EXPECT_EQ(result.code, 0);
-  EXPECT_EQ(result.err, "");
+  run.endsOn("ctrl+q");
 }
 
 }  // namespace

@@ -171,10 +171,7 @@ TEST_F(PanelChoices, RowsOfEveryTable) {
   chooseSome(kMethod, 1, formFactorMethods().size());
   choose(kScene, 4);
   EXPECT_TRUE(run_.hasTitle("two_rooms \u2013 Unshot")) << run_.title();
-  run_.key("ctrl+q");
-  const ProgramResult result = run_.end();
-  EXPECT_EQ(result.code, 0);
-  EXPECT_EQ(result.err, "");
+  run_.endsOn("ctrl+q");
 }
 
 }  // namespace

@@ -31,12 +31,6 @@ class Window : public testing::Test {
  protected:
   Screen screen_;
 
-  void endsOn(WindowRun& run, const std::string& key) {
-    run.key(key);
-    const ProgramResult result = run.end();
-    EXPECT_EQ(result.code, 0) << result.err;
-    EXPECT_EQ(result.err, "");
-  }
   /// The scene loaded, the solve paused after some shots.
   static std::string pausedScene(WindowRun& run) {
     if (!run.hasTitle(kTitle)) ADD_FAILURE() << "has the title " << run.title();
@@ -56,7 +50,7 @@ TEST_F(Window, SpacePausesAndNStepsAndSpaceGoesOn) {
   EXPECT_NE(stepped, paused);
   run.key("space");
   EXPECT_TRUE(run.sceneChanges(stepped)) << "does not go on";
-  endsOn(run, "ctrl+q");
+  run.endsOn("ctrl+q");
 }
 
 TEST_F(Window, KeysOfTheDisplay) {
@@ -92,7 +86,7 @@ TEST_F(Window, KeysOfTheDisplay) {
   run.key("Tab");
   EXPECT_TRUE(
       eventually([&] { return readImage(run.folder().path() / run.screenshot()).width > beside_panel; }));
-  endsOn(run, "ctrl+q");
+  run.endsOn("ctrl+q");
 }
 
 TEST_F(Window, AnActionIsTypedIntoTheList) {
@@ -104,7 +98,7 @@ TEST_F(Window, AnActionIsTypedIntoTheList) {
   EXPECT_TRUE(eventually([&] { return run.folder().names().size() == 2; }));
   EXPECT_EQ(run.folder().names(), (std::set<std::string>{"typed.png", "unshot-cornell_box-001.png"}))
       << "typed keys went to the scene too, or the key after the list to nobody";
-  endsOn(run, "ctrl+q");
+  run.endsOn("ctrl+q");
 }
 
 // Y and Z have changed places there, and + and - are elsewhere.
@@ -130,7 +124,7 @@ TEST_F(Window, KeysAreThoseThatAreSeenOnTheKeyboard) {
   run.key("ctrl+y");
   EXPECT_TRUE(run.sceneChanges(undone)) << "not done again";
   run.key("ctrl+z");  // nothing is left to be kept
-  endsOn(run, "ctrl+q");
+  run.endsOn("ctrl+q");
 }
 
 TEST_F(Window, MouseAndFlight) {
@@ -163,7 +157,7 @@ TEST_F(Window, MouseAndFlight) {
   run.sceneAtRest();
   run.key("f");
   EXPECT_TRUE(eventually([&] { return run.scene() == framed || HasFailure(); })) << "F does not go back";
-  endsOn(run, "ctrl+q");
+  run.endsOn("ctrl+q");
 }
 
 TEST_F(Window, ScreenshotsAreNumberedAndHaveTheWindowsSize) {
@@ -189,7 +183,7 @@ TEST_F(Window, ScreenshotsAreNumberedAndHaveTheWindowsSize) {
     })) << size.width
         << "x" << size.height;
   }
-  endsOn(run, "ctrl+q");
+  run.endsOn("ctrl+q");
 }
 
 struct Ending {

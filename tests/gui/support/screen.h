@@ -183,6 +183,14 @@ class WindowRun {
     return run_->wait();
   }
 
+  /// That this key ends it, and that all was well.
+  void endsOn(const std::string& key_name) {
+    key(key_name);
+    const ProgramResult result = end();
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+  }
+
  private:
   TempFolder folder_;
   std::unique_ptr<ProgramRun> run_;
