@@ -98,8 +98,9 @@ SolvedAtOnce solveAtOnce(const Mesh& mesh, std::uint64_t seed, const CancelToken
     }
   }
   Residuals residuals(mesh, transport.receivers(), false, seed);
-  residuals.add(kPlaces, shown);
-  out.error = residuals.estimate(state, matrix, shown, false).both;
+  const MeshField field = makeField(mesh, transport.receivers(), shown);
+  residuals.add(kPlaces, field);
+  out.error = residuals.estimate(state, matrix, field, false).both;
   out.values = state.values();
   for (std::uint32_t q = 0; q < mesh.patch_count; ++q) out.columns.push_back(*transport.take(q, false));
   return out;

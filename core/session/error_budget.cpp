@@ -119,7 +119,7 @@ const SolverBounds& ErrorBudget::sharpen() {
   return now_;
 }
 
-const ErrorEstimates& ErrorBudget::estimate(std::size_t more_places, const std::vector<glm::dvec3>& shown) {
+const ErrorEstimates& ErrorBudget::estimate(std::size_t more_places, const MeshField& shown) {
   const Timed timed(seconds_);
   if (!residuals_) residuals_.emplace(mesh_, transport_.receivers(), occlusion_, seed_);
   residuals_->add(more_places, shown);
@@ -149,7 +149,7 @@ void ErrorBudget::forgetPlaces() {
   if (residuals_) residuals_->forgetPlaces();
 }
 
-std::vector<double> ErrorBudget::patchResiduals(const std::vector<glm::dvec3>& shown) const {
+std::vector<double> ErrorBudget::patchResiduals(const MeshField& shown) const {
   return residuals_ && residuals_->places() > 0 ? residuals_->patchResiduals(state_, shown)
                                                 : std::vector<double>();
 }

@@ -31,14 +31,14 @@ class ErrorBudget {
   const SolverBounds& sharpen();
   const ErrorBounds& bounds() const { return bounds_; }
   /// Estimates of what form factors and mesh leave wrong, from so many more places than before.
-  /// `shown`: H as it is shown, one per receiver [W/m^2].
-  const ErrorEstimates& estimate(std::size_t more_places, const std::vector<glm::dvec3>& shown);
+  /// `shown`: H as it is shown.
+  const ErrorEstimates& estimate(std::size_t more_places, const MeshField& shown);
   const ErrorEstimates& estimates() const { return estimates_; }
   /// The next estimate is from places of its own alone, chosen by the light as it is then.
   void forgetPlaces();
   std::size_t places() const { return residuals_ ? residuals_->places() : 0; }
   /// See Residuals::patchResiduals; empty before the first estimate.
-  std::vector<double> patchResiduals(const std::vector<glm::dvec3>& shown) const;
+  std::vector<double> patchResiduals(const MeshField& shown) const;
   double seconds() const { return seconds_; }  ///< wall time that it took so far
   std::size_t bytes() const { return matrix_.bytes(); }
 

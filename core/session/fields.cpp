@@ -24,7 +24,8 @@ std::vector<glm::vec3> atVertices(const Mesh& mesh, F&& at) {
   return out;
 }
 
-// Mean over each element's display triangles of a field on vertices.
+}  // namespace
+
 std::vector<glm::vec3> meanOverElements(const Mesh& mesh, const std::vector<glm::dvec3>& field) {
   std::vector<glm::dvec3> sum(mesh.element_count, glm::dvec3(0.0));
   std::vector<double> area(mesh.element_count, 0.0);
@@ -42,8 +43,6 @@ std::vector<glm::vec3> meanOverElements(const Mesh& mesh, const std::vector<glm:
   return out;
 }
 
-}  // namespace
-
 MeshField makeField(const Mesh& mesh, const Receivers& receivers, const std::vector<glm::dvec3>& values) {
   if (receivers.kind == ReceiverKind::kElements)
     return {atVertices(mesh, [&](std::uint32_t e) { return values[e]; }), {values.begin(), values.end()}};
@@ -59,15 +58,13 @@ std::vector<glm::vec3> fieldOfPatches(const Mesh& mesh, const std::vector<glm::d
   return atVertices(mesh, [&](std::uint32_t e) { return values[mesh.element_patch[e]]; });
 }
 
-Snapshot makeFields(std::shared_ptr<const Mesh> mesh_in, const Receivers& receivers,
-                    const std::vector<glm::dvec3>& irradiance, const RadiosityState& state,
+Snapshot makeFields(std::shared_ptr<const Mesh> mesh_in, MeshField irradiance, const RadiosityState& state,
                     const AmbientTerm& ambient) {
   Snapshot out;
   out.mesh = std::move(mesh_in);
   const Mesh& mesh = *out.mesh;
-  MeshField received = makeField(mesh, receivers, irradiance);
-  out.irradiance = std::move(received.vertices);
-  out.element_irradiance = std::move(received.elements);
+  out.irradiance = std::move(irradiance.vertices);
+  out.element_irradiance = std::move(irradiance.elements);
   const std::vector<glm::dvec3> estimate = ambient.values(state);
   out.ambient = atVertices(mesh, [&](std::uint32_t e) { return estimate[mesh.element_patch[e]]; });
   out.unshot = atVertices(mesh, [&](std::uint32_t e) { return state.unshot()[mesh.element_patch[e]]; });

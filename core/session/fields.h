@@ -15,12 +15,14 @@ namespace unshot {
 /// are those that fit best between them (linear_fit.h).
 MeshField makeField(const Mesh& mesh, const Receivers& receivers, const std::vector<glm::dvec3>& values);
 
+/// Mean over each element's display triangles of a field on vertices.
+std::vector<glm::vec3> meanOverElements(const Mesh& mesh, const std::vector<glm::dvec3>& field);
+
 /// Values of patches (one each) at the vertices, interpolated.
 std::vector<glm::vec3> fieldOfPatches(const Mesh& mesh, const std::vector<glm::dvec3>& values);
 
-/// All of the snapshot but its measures, direct light, bounces and residual. `irradiance` one per receiver.
-Snapshot makeFields(std::shared_ptr<const Mesh> mesh, const Receivers& receivers,
-                    const std::vector<glm::dvec3>& irradiance, const RadiosityState& state,
+/// All of the snapshot but its measures, direct light, bounces and residual.
+Snapshot makeFields(std::shared_ptr<const Mesh> mesh, MeshField irradiance, const RadiosityState& state,
                     const AmbientTerm& ambient);
 
 /// The fields that snapshots share as long as they do not change: direct light, expected bounces, residual.

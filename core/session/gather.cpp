@@ -13,10 +13,6 @@
 namespace unshot {
 namespace {
 
-// Rays of a look: a grid of strata, this many along each side.
-constexpr int kStrata = 12;
-// As many emitting triangles are all looked at; of more, this many are drawn at random.
-constexpr std::size_t kMostEmitters = 16;
 // Shadow rays to an emitter, a grid: where there are few emitters, and where there are many.
 constexpr int kShadowStrata = 5, kFewShadowStrata = 2;
 constexpr std::size_t kFewEmitters = 4;
@@ -37,8 +33,14 @@ Gatherer::Gatherer(const Mesh& mesh) : mesh_(mesh), rays_(mesh) {
     const glm::dvec3& e = mesh.sides[s].emission;
     if (e == glm::dvec3(0.0)) continue;
     const Range& range = mesh.surfaces[mesh.sides[s].surface].triangles;
-    for (std::uint32_t t = range.first; t < range.end(); ++t)
-      emitters_.push_back({t, s, (e.x + e.y + e.z) * rays_.rays().triangle(t).area});
+    for (std::uint32_t t = range.first; t < range.end(); ++t) {
+      const SceneRays::Triangle& triangle = rays_.rays().triangle(t);
+      const auto& p = triangle.corners;
+      const glm::dvec3 centre = (p[0] + p[1] + p[2]) / 3.0;
+      const double radius =
+          std::max({glm::distance(p[0], centre), glm::distance(p[1], centre), glm::distance(p[2], centre)});
+      emitters_.push_back({t, s, (e.x + e.y + e.z) * triangle.area, centre, radius});
+    }
   }
 }
 
@@ -49,52 +51,70 @@ std::uint32_t Gatherer::elementOf(std::uint32_t surface, std::uint32_t side,
   return local == kNone ? kNone : mesh_.sides[side].first_element + local;
 }
 
-Gather Gatherer::look(const glm::dvec3& position, const glm::dvec3& normal, std::uint64_t stream) const {
+Gather Gatherer::lookFromAll(std::span<const glm::dvec3> positions, const glm::dvec3& normal,
+                             std::uint64_t stream, const LookSize& size) const {
   Gather out;
-  out.rays.reserve(kStrata * kStrata);
-  const glm::dvec3 eye = rays_.rays().lifted(position, normal);
+  const int strata = size.strata;
+  out.rays.reserve(static_cast<std::size_t>(strata * strata));
+  std::vector<glm::dvec3> eyes;
+  for (const glm::dvec3& position : positions) eyes.push_back(rays_.rays().lifted(position, normal));
   Draws draws{mixBits(stream)};
   std::vector<Reach> reaches;
-  reaches.reserve(kStrata * kStrata);
-  for (int i = 0; i < kStrata; ++i) {
-    for (int j = 0; j < kStrata; ++j) {
-      const double u = (i + draws.next()) / kStrata, v = (j + draws.next()) / kStrata;
+  reaches.reserve(static_cast<std::size_t>(strata * strata));
+  for (int i = 0; i < strata; ++i) {
+    for (int j = 0; j < strata; ++j) {
+      const double u = (i + draws.next()) / strata, v = (j + draws.next()) / strata;
       const glm::dvec3 direction = cosineDirection(normal, u, v);
-      const auto hit = rays_.intersect(eye, direction);
+      const auto hit = rays_.intersect(eyes[reaches.size() % eyes.size()], direction);
       reaches.push_back({direction, hit ? hit->at.distance : std::numeric_limits<double>::infinity()});
       out.rays.push_back(!hit                 ? kToSky
                          : hit->side == kNone ? kNone
                                               : elementOf(hit->surface, hit->side, hit->at.position));
     }
   }
-  lookAtLights(position, normal, reaches, mixBits(stream ^ 0x5bd1e995u), out);
+  if (positions.size() > 1 || !size.without_bias) reaches.clear();  // of several they are of no one
+  lookAtLights(positions, normal, reaches, mixBits(stream ^ 0x5bd1e995u), size.emitters, out);
   return out;
 }
 
-void Gatherer::lookAtLights(const glm::dvec3& position, const glm::dvec3& normal,
-                            const std::vector<Reach>& reaches, std::uint64_t stream, Gather& out) const {
-  if (emitters_.size() <= kMostEmitters) {
+void Gatherer::lookAtLights(std::span<const glm::dvec3> positions, const glm::dvec3& normal,
+                            const std::vector<Reach>& reaches, std::uint64_t stream, std::size_t most,
+                            Gather& out) const {
+  if (emitters_.size() <= most) {
     const int strata = emitters_.size() <= kFewEmitters ? kShadowStrata : kFewShadowStrata;
     for (std::size_t k = 0; k < emitters_.size(); ++k)
-      lookAtLight(emitters_[k], position, normal, reaches, strata, 1, mixBits(stream + k), out);
+      for (std::size_t i = 0; i < positions.size(); ++i)
+        lookAtLight(emitters_[k], positions[i], normal, reaches,
+                    positions.size() > 1 ? kFewShadowStrata : strata,
+                    1 / static_cast<double>(positions.size()), mixBits(stream + k + (i << 32)), out);
     return;
   }
-  // By power over distance squared, in strata of the sum.
+  // Of several positions: the ball around them.
+  glm::dvec3 middle(0.0);
+  for (const glm::dvec3& p : positions) middle += p / static_cast<double>(positions.size());
+  double spread = 0;
+  for (const glm::dvec3& p : positions) spread = std::max(spread, glm::distance(p, middle));
+  // In strata of the sum of what they may bring: nothing from behind them, or from below the horizon.
   std::vector<double> sum(emitters_.size());
   double total = 0;
   for (std::size_t k = 0; k < emitters_.size(); ++k) {
-    const SceneRays::Triangle& t = rays_.rays().triangle(emitters_[k].triangle);
-    const glm::dvec3 to = (t.corners[0] + t.corners[1] + t.corners[2]) / 3.0 - position;
-    sum[k] = total += emitters_[k].power / (glm::dot(to, to) + t.area);
+    const Emitter& emitter = emitters_[k];
+    const glm::dvec3 to = emitter.centre - middle;
+    const double radius = emitter.radius + spread, square = glm::dot(to, to) + radius * radius;
+    const double above = glm::dot(to, normal) + radius,
+                 in_front = radius - glm::dot(to, mesh_.sides[emitter.side].normal);
+    if (above > 0 && in_front > 0) total += emitter.power * above * in_front / (square * square);
+    sum[k] = total;
   }
+  if (!(total > 0)) return;
   Draws draws{stream};
-  for (std::size_t i = 0; i < kMostEmitters; ++i) {
-    const double at = (static_cast<double>(i) + draws.next()) / kMostEmitters * total;
+  for (std::size_t i = 0; i < most; ++i) {
+    const double at = (static_cast<double>(i) + draws.next()) / static_cast<double>(most) * total;
     const auto k = std::min<std::size_t>(
         static_cast<std::size_t>(std::upper_bound(sum.begin(), sum.end(), at) - sum.begin()), sum.size() - 1);
     const double probability = (sum[k] - (k > 0 ? sum[k - 1] : 0)) / total;
-    lookAtLight(emitters_[k], position, normal, reaches, kFewShadowStrata, 1 / (kMostEmitters * probability),
-                mixBits(stream + i), out);
+    lookAtLight(emitters_[k], positions[i % positions.size()], normal, reaches, kFewShadowStrata,
+                1 / (static_cast<double>(most) * probability), mixBits(stream + i), out);
   }
 }
 
@@ -113,8 +133,8 @@ void Gatherer::lookAtLight(const Emitter& emitter, const glm::dvec3& position, c
   // Samples spread over its area say little of an emitter that is wider than it is away.
   const glm::dvec3 centre = (t.corners[0] + t.corners[1] + t.corners[2]) / 3.0;
   const double radius = std::sqrt(t.area);
-  const bool wide =
-      glm::dot(position - centre, side.normal) < radius && glm::length(centre - position) < kNear * radius;
+  const bool wide = !reaches.empty() && glm::dot(position - centre, side.normal) < radius &&
+                    glm::length(centre - position) < kNear * radius;
   struct Sample {
     std::uint32_t element;
     double kernel;

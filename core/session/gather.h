@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "mesh/mesh_rays.h"
@@ -30,6 +31,15 @@ struct Gather {
   float sky = 0;              ///< of an exact look
 };
 
+/// How many rays a look takes.
+struct LookSize {
+  int strata = 12;            ///< of rays, along each side of their grid
+  std::size_t emitters = 16;  ///< of more emitting triangles so many are drawn at random, else all are taken
+  /// What hides emitters that are wider than they are away is told by the rays, without bias, else as for
+  /// others by points of them, with less noise.
+  bool without_bias = true;
+};
+
 /// Looks around in a scene. Emitters are seen by their exact polygon factor times the share of it that shadow
 /// rays find visible, all else by cosine-distributed rays in strata; where an emitter is very wide these tell
 /// how much of it is hidden.
@@ -38,20 +48,29 @@ class Gatherer {
   explicit Gatherer(const Mesh& mesh);
 
   /// From `position` on the side that `normal` points away from; `stream` numbers independent looks.
-  Gather look(const glm::dvec3& position, const glm::dvec3& normal, std::uint64_t stream) const;
+  Gather look(const glm::dvec3& position, const glm::dvec3& normal, std::uint64_t stream,
+              const LookSize& size = {}) const {
+    return lookFromAll({&position, 1}, normal, stream, size);
+  }
+  /// One look for the mean over points of a surface, at least one: its rays begin at all of them in turn.
+  Gather lookFromAll(std::span<const glm::dvec3> positions, const glm::dvec3& normal, std::uint64_t stream,
+                     const LookSize& size) const;
 
  private:
   struct Emitter {
     std::uint32_t triangle;  // in Mesh::triangles
     std::uint32_t side;
     double power;  // channels summed
+    glm::dvec3 centre{0.0};
+    double radius = 0;  // of a ball about it
   };
   struct Reach {
     glm::dvec3 direction;  // of a ray
     double distance;       // where it ends [m]
   };
-  void lookAtLights(const glm::dvec3& position, const glm::dvec3& normal, const std::vector<Reach>& reaches,
-                    std::uint64_t stream, Gather& out) const;
+  void lookAtLights(std::span<const glm::dvec3> positions, const glm::dvec3& normal,
+                    const std::vector<Reach>& reaches, std::uint64_t stream, std::size_t most,
+                    Gather& out) const;
   void lookAtLight(const Emitter& emitter, const glm::dvec3& position, const glm::dvec3& normal,
                    const std::vector<Reach>& reaches, int samples, double weight, std::uint64_t stream,
                    Gather& out) const;

@@ -34,6 +34,8 @@ constexpr double kForSides = 0.1;
 constexpr double kMostLooks = 6e7;
 // Of scenes with more than so many triangles that light reaches, that needs no mesh to be known.
 constexpr std::size_t kMostTriangles = 50'000;
+// Of scenes with no more, hemicubes on even elements are within some percent.
+constexpr std::size_t kFewTriangles = 2'000;
 // Shares of the time from a large scene to the first shot: surfaces and their meshes found, the scene
 // checked.
 constexpr double kSurfacesShare = 0.45, kMeshShare = 0.9, kChecksShare = 0.95;
@@ -164,6 +166,8 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
     const bool follows = may_follow && by_rays;
     if (follows != to_refine) out.mesh = meshed(follows);
     to_refine = follows;
+    out.gathers =
+        !by_rays && options.soonest && surfaces && litTriangles(surfaces->mesh).size() > kFewTriangles;
     if (by_rays) decisions.push_back(withoutHemicubes(*out.mesh, options.error));
   }
   surfaces.reset();

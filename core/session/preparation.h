@@ -18,6 +18,7 @@ struct Preparation {
   std::string form_factors;  ///< key of the method: what `auto` became
   glm::dvec3 sky{0.0};       ///< its radiosity [W/m^2]: what was asked for, or what skyOver makes of it
   std::vector<PlanDecision> plan;
+  bool gathers = false;                       ///< whether final gathering is to follow (final_gather.h)
   std::optional<SolvedAtOnce> solved;         ///< the mesh's light, where trying it has brought that
   Diagnostics diagnostics;                    ///< of scene, mesh, checks and choice of method
   double mesh_seconds = 0, plan_seconds = 0;  ///< wall time

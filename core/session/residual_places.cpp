@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 
 #include "base/random.h"
-#include "session/fields.h"
 
 namespace unshot {
 namespace {
@@ -78,7 +77,7 @@ ResidualPlaces::Choice ResidualPlaces::choose(const std::vector<double>& area_su
 }
 
 // Reflected light over each triangle and at each receiver, where places may lie.
-void ResidualPlaces::findLight(const std::vector<glm::dvec3>& shown) {
+void ResidualPlaces::findLight(const MeshField& shown) {
   triangle_light_sum_.clear();
   receiver_light_sum_.clear();
   const auto lightOf = [](const glm::dvec3& rho, const glm::dvec3& h) {
@@ -86,20 +85,21 @@ void ResidualPlaces::findLight(const std::vector<glm::dvec3>& shown) {
     const double sum = b.x + b.y + b.z;
     return std::isfinite(sum * sum) ? sum * sum : 0.0;
   };
-  const MeshField h = makeField(mesh_, receivers_, shown);
   double sum = 0;
   for (std::size_t t = 0; t < triangle_area_sum_.size(); ++t) {
     const std::uint32_t* corner = &mesh_.triangle_vertices[3 * t];
-    const glm::dvec3 mean = (glm::dvec3(h.vertices[corner[0]]) + glm::dvec3(h.vertices[corner[1]]) +
-                             glm::dvec3(h.vertices[corner[2]])) /
+    const glm::dvec3 mean = (glm::dvec3(shown.vertices[corner[0]]) + glm::dvec3(shown.vertices[corner[1]]) +
+                             glm::dvec3(shown.vertices[corner[2]])) /
                             3.0;
     const Side& side = mesh_.sides[mesh_.element_side[mesh_.triangle_element[t]]];
     triangle_light_sum_.push_back(sum += ownOf(triangle_area_sum_, t) * lightOf(side.reflectance, mean));
   }
+  const std::vector<glm::vec3>& at =
+      receivers_.kind == ReceiverKind::kElements ? shown.elements : shown.vertices;
   sum = 0;
   for (std::uint32_t v = 0; v < receiver_area_sum_.size(); ++v)
     receiver_light_sum_.push_back(sum += ownOf(receiver_area_sum_, v) *
-                                         lightOf(receivers_.reflectance[v], receivers_.shown(v, shown)));
+                                         lightOf(receivers_.reflectance[v], glm::dvec3(at[v])));
 }
 
 void ResidualPlaces::forget() {
@@ -107,7 +107,7 @@ void ResidualPlaces::forget() {
   at_receivers_.clear();
 }
 
-void ResidualPlaces::add(std::size_t places, const std::vector<glm::dvec3>& shown) {
+void ResidualPlaces::add(std::size_t places, const MeshField& shown) {
   if (places == 0 || triangle_area_sum_.empty() || triangle_area_sum_.back() <= 0 ||
       receiver_area_sum_.back() <= 0)
     return;

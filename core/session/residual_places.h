@@ -10,6 +10,7 @@
 #include "mesh/element_points.h"
 #include "session/exact_look.h"
 #include "session/gather.h"
+#include "session/snapshot.h"
 
 namespace unshot {
 
@@ -31,9 +32,9 @@ class ResidualPlaces {
   /// Takes `places` more points and as many receivers; a place costs some 700 rays, or, where nothing can
   /// occlude and elements are few, a factor for each of them, and no receivers are taken then. Half of the
   /// places are spread evenly over the area, half by the square of the light that is reflected there, of
-  /// which `shown` is H as it is shown (one per receiver [W/m^2]): a few bright places can hold most of an
-  /// error. Surfaces that emit have places too, for what goes on from there.
-  void add(std::size_t places, const std::vector<glm::dvec3>& shown);
+  /// which `shown` is H as it is shown: a few bright places can hold most of an error. Surfaces that emit
+  /// have places too, for what goes on from there.
+  void add(std::size_t places, const MeshField& shown);
   /// Whether looks are exact (exact_look.h): both of a place are the same.
   bool exact() const { return exact_.has_value(); }
   /// Those that follow are chosen by the light as it is then.
@@ -48,7 +49,7 @@ class ResidualPlaces {
   };
   static Choice choose(const std::vector<double>& area_sum, const std::vector<double>& light_sum,
                        std::uint64_t number, std::uint64_t seed);
-  void findLight(const std::vector<glm::dvec3>& shown);
+  void findLight(const MeshField& shown);
   void addPoint(std::uint64_t number);
   void addReceiver(std::uint64_t number);
   Gather look(const glm::dvec3& position, const glm::dvec3& normal, std::uint64_t stream) const;

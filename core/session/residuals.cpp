@@ -186,54 +186,16 @@ Residuals::Residuals(const Mesh& mesh, const Receivers& receivers, bool occlusio
 
 bool Residuals::counts(std::uint32_t patch) const { return counts_[mesh_.patch_side[patch]] != 0; }
 
-// H of a gather.
-glm::dvec3 Residuals::irradianceOf(const Gather& gather, const Sent& sent) const {
-  glm::dvec3 sum(0.0);
-  for (const std::uint32_t e : gather.rays) {
-    if (e == kToSky) {
-      sum += sent.sky;
-    } else if (e != kNone) {
-      sum += sent.light[e];
-    }
-  }
-  if (!gather.rays.empty()) sum /= static_cast<double>(gather.rays.size());
-  for (const Gather::Light& light : gather.lights)
-    sum += static_cast<double>(light.weight) * sent.emission[light.patch];
-  for (const Gather::Share& s : gather.shares)
-    sum += static_cast<double>(s.weight) *
-           (sent.light[s.element] + sent.emission[mesh_.element_patch[s.element]]);
-  return sum + static_cast<double>(gather.sky) * sent.sky;
-}
-
-// Emission and sky as they are sent: all of them, or what has been shot.
-void Residuals::setSources(const RadiosityState& state, bool with_unshot, Sent& sent) const {
-  sent.emission = state.emission();
-  if (!with_unshot)
-    for (std::uint32_t q = 0; q < mesh_.patch_count; ++q) sent.emission[q] -= state.emissionLeft(q);
-  // The source behind the patches.
-  if (state.patchCount() > mesh_.patch_count)
-    sent.sky = with_unshot ? state.emission()[mesh_.patch_count] : state.shot()[mesh_.patch_count];
-}
-
-// Light that elements send, besides emission: rho H as it is known on them, with what is unshot of it or
-// without.
 std::vector<Residuals::Residual> Residuals::pointResiduals(const RadiosityState& state,
-                                                           const std::vector<glm::dvec3>& shown_field,
+                                                           const MeshField& shown_field,
                                                            bool with_unshot) const {
-  const MeshField h = makeField(mesh_, receivers_, shown_field);
-  Sent sent;
-  setSources(state, with_unshot, sent);
-  sent.light.resize(mesh_.element_count);
-  for (std::uint32_t e = 0; e < sent.light.size(); ++e) {
-    const std::uint32_t q = mesh_.element_patch[e];
-    sent.light[e] = state.reflectance()[q] * glm::dvec3(h.elements[e]);
-    if (!with_unshot) sent.light[e] -= state.unshot()[q] - state.emissionLeft(q);
-  }
+  const SentLight sent = lightOf(mesh_, state, shown_field, with_unshot);
   std::vector<Residual> out;
   for (const ResidualPlace& place : places_.points()) {
     glm::dvec3 shown(0.0);
     for (int k = 0; k < 3; ++k)
-      shown += place.weights[k] * glm::dvec3(h.vertices[mesh_.triangle_vertices[3 * place.triangle + k]]);
+      shown += place.weights[k] *
+               glm::dvec3(shown_field.vertices[mesh_.triangle_vertices[3 * place.triangle + k]]);
     out.push_back(residualOf(place, state.reflectance()[place.patch], sent, shown));
   }
   return out;
@@ -241,8 +203,7 @@ std::vector<Residuals::Residual> Residuals::pointResiduals(const RadiosityState&
 
 // The same of patches as the solver has them.
 std::vector<Residuals::Residual> Residuals::receiverResiduals(const RadiosityState& state) const {
-  Sent sent;
-  setSources(state, false, sent);
+  SentLight sent = sourcesOf(mesh_, state, false);
   sent.light.resize(mesh_.element_count);
   for (std::uint32_t e = 0; e < sent.light.size(); ++e) {
     const std::uint32_t q = mesh_.element_patch[e];
@@ -255,18 +216,18 @@ std::vector<Residuals::Residual> Residuals::receiverResiduals(const RadiositySta
   return out;
 }
 
-Residuals::Residual Residuals::residualOf(const ResidualPlace& place, const glm::dvec3& rho, const Sent& sent,
-                                          const glm::dvec3& shown) const {
+Residuals::Residual Residuals::residualOf(const ResidualPlace& place, const glm::dvec3& rho,
+                                          const SentLight& sent, const glm::dvec3& shown) const {
   return {place.patch,
-          {rho * (irradianceOf(place.looks[0], sent) - shown),
-           rho * (irradianceOf(place.looks[1], sent) - shown)},
+          {rho * (irradianceOf(place.looks[0], sent, mesh_) - shown),
+           rho * (irradianceOf(place.looks[1], sent, mesh_) - shown)},
           rho * shown,
           place.weight,
           counts(place.patch)};
 }
 
 ErrorEstimates Residuals::estimate(const RadiosityState& state, const PatchMatrix& matrix,
-                                   const std::vector<glm::dvec3>& shown, bool with_total) const {
+                                   const MeshField& shown, bool with_total) const {
   ErrorEstimates out;
   const std::vector<ResidualPlace>&points = places_.points(), &receivers = places_.receivers();
   if (points.empty() || (receivers.empty() && !places_.exact())) return out;
@@ -287,8 +248,7 @@ ErrorEstimates Residuals::estimate(const RadiosityState& state, const PatchMatri
   return out;
 }
 
-std::vector<double> Residuals::patchResiduals(const RadiosityState& state,
-                                              const std::vector<glm::dvec3>& shown) const {
+std::vector<double> Residuals::patchResiduals(const RadiosityState& state, const MeshField& shown) const {
   struct Square {
     double sum = 0, weight = 0, places = 0;
     void add(double w, double square) {

@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "formfactor/receivers.h"
-#include "session/gather.h"
 #include "session/residual_places.h"
+#include "session/sent_light.h"
 #include "solver/patch_matrix.h"
 #include "solver/state.h"
 
@@ -46,17 +46,17 @@ class Residuals {
   Residuals(const Mesh& mesh, const Receivers& receivers, bool occlusion, std::uint64_t seed);
 
   /// As ResidualPlaces::add and ::forget.
-  void add(std::size_t places, const std::vector<glm::dvec3>& shown) { places_.add(places, shown); }
+  void add(std::size_t places, const MeshField& shown) { places_.add(places, shown); }
   std::size_t places() const { return places_.points().size(); }
   void forgetPlaces() { places_.forget(); }
 
-  /// Of the present state. `shown`: H as it is shown, one per receiver [W/m^2]. `with_total`: where the
+  /// Of the present state. `shown`: H as it is shown. `with_total`: where the
   /// matrix lacks little. Costs up to 170 products with the matrix.
-  ErrorEstimates estimate(const RadiosityState& state, const PatchMatrix& matrix,
-                          const std::vector<glm::dvec3>& shown, bool with_total) const;
+  ErrorEstimates estimate(const RadiosityState& state, const PatchMatrix& matrix, const MeshField& shown,
+                          bool with_total) const;
   /// RMS over its points of the residual of each patch [W/m^2], channels averaged; a patch with few points
   /// leans on those of its side, a side without points has 0.
-  std::vector<double> patchResiduals(const RadiosityState& state, const std::vector<glm::dvec3>& shown) const;
+  std::vector<double> patchResiduals(const RadiosityState& state, const MeshField& shown) const;
 
  private:
   struct Residual {
@@ -66,18 +66,11 @@ class Residuals {
     double weight;
     bool counts;  // in the nRMSE
   };
-  struct Sent {
-    std::vector<glm::dvec3> emission;  // one per patch [W/m^2]
-    std::vector<glm::dvec3> light;     // besides emission, one per element [W/m^2]
-    glm::dvec3 sky{0.0};               // [W/m^2]
-  };
-  std::vector<Residual> pointResiduals(const RadiosityState& state, const std::vector<glm::dvec3>& shown,
+  std::vector<Residual> pointResiduals(const RadiosityState& state, const MeshField& shown,
                                        bool with_unshot) const;
   std::vector<Residual> receiverResiduals(const RadiosityState& state) const;
-  Residual residualOf(const ResidualPlace& place, const glm::dvec3& rho, const Sent& sent,
+  Residual residualOf(const ResidualPlace& place, const glm::dvec3& rho, const SentLight& sent,
                       const glm::dvec3& shown) const;
-  glm::dvec3 irradianceOf(const Gather& gather, const Sent& sent) const;
-  void setSources(const RadiosityState& state, bool with_unshot, Sent& sent) const;
   bool counts(std::uint32_t patch) const;
 
   const Mesh& mesh_;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kKind = "unshot solve";
 // To be raised when the file changes, or what form-factor methods and mesh mean by the same options.
-constexpr std::uint32_t kVersion = 5;
+constexpr std::uint32_t kVersion = 6;
 
 // What the file holds, for writing (constant values) and for reading.
 
@@ -25,12 +25,18 @@ void transferValues(Archive& a, Values& v) {
 template <class Archive, class Saved>
 void transferHead(Archive& a, Saved& s) {
   a.fields(s.scene_hash, s.form_factors, s.emit_front_only, s.sky, s.seed);
-  a.fields(s.hemicube_resolution, s.hemicube_drawing, s.mode, s.error);
+  a.fields(s.hemicube_resolution, s.hemicube_drawing, s.final_gather, s.mode, s.error);
   a.list(s.plan, [&](auto& d) { a.fields(d.key, d.what, d.why, d.saving, d.bound); });
   a.list(s.do_anyway, [&](auto& key) { a.fields(key); });
   a.fields(s.quality, s.drafts_allowed, s.closure.scale, s.closure.exact, s.closure_pending);
   a.fields(s.seconds, s.cpu_seconds, s.mesh_seconds, s.plan_seconds);
   a.fields(s.shots, s.rows, s.drawn, s.history, s.state, s.stopped_by);
+}
+
+template <class Archive, class Light>
+void transferGathered(Archive& a, Light& light) {
+  a.fields(light.irradiance.vertices, light.irradiance.elements);
+  a.fields(light.direct.vertices, light.direct.elements);
 }
 
 template <class Archive, class AnyColumn>
@@ -47,6 +53,7 @@ SolveOptions SavedSolve::options(SolveOptions options) const {
   options.seed = seed;
   options.hemicube_resolution = hemicube_resolution;
   options.hemicube_drawing = hemicube_drawing;
+  options.final_gather = final_gather;
   options.mesh = mesh;
   for (const std::string& key : do_anyway)
     if (leavesOut(options.do_anyway, key)) options.do_anyway.push_back(key);
@@ -62,6 +69,10 @@ std::shared_ptr<SavedSolve> readSavedSolve(const std::filesystem::path& path, co
   saved->mesh = readMesh(archive);
   transferValues(archive, saved->values);
   archive.fields(saved->local_irradiance);
+  GatheredLight gathered;
+  transferGathered(archive, gathered);
+  if (!gathered.irradiance.vertices.empty())
+    saved->gathered = std::make_shared<const GatheredLight>(std::move(gathered));
   archive.list(saved->columns, [&](auto& column) {
     cancel.check();
     archive.fields(column.first);
@@ -79,6 +90,7 @@ SavedSolve Solve::Impl::head() const {
   head.seed = options.seed;
   head.hemicube_resolution = options.hemicube_resolution;
   head.hemicube_drawing = options.hemicube_drawing;
+  head.final_gather = options.final_gather.value_or(false);
   head.mode = options.mode;
   head.error = options.error;
   head.mesh = mesh;
@@ -115,6 +127,8 @@ void Solve::save(const std::filesystem::path& path, const CancelToken& cancel) c
     writeMesh(archive, *s.mesh);
     transferValues(archive, s.state->values());
     archive.fields(s.local_pass ? s.local_pass->irradiance() : std::vector<glm::dvec3>());
+    const bool gathered = s.final_gather && s.final_gather->light();
+    transferGathered(archive, gathered ? *s.final_gather->light() : GatheredLight{});
     archive.fields(std::uint64_t{transport.keptColumns()});
     for (std::uint32_t q = 0; q < transport.patchCount(); ++q) {
       cancel.check();
@@ -160,6 +174,13 @@ void Solve::Impl::restore(SavedSolve& saved) {
   }
   transport->allowDrafts(saved.drafts_allowed);
   if (local_pass) local_pass->restore(std::move(saved.local_irradiance));
+  if (saved.gathered && final_gather) {
+    for (const MeshField* field : {&saved.gathered->irradiance, &saved.gathered->direct}) {
+      if (field->vertices.size() != mesh->vertices.size() || field->elements.size() != mesh->element_count)
+        refuse("does not fit its own mesh");
+    }
+    final_gather->restore(std::move(saved.gathered));
+  }
 }
 
 // The clocks and counts go on, and what has ended well has ended still, where the error asked for is no

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "session/final_gather.h"
 #include "session/solve.h"
 #include "solver/state.h"
 
@@ -41,7 +42,9 @@ struct SavedSolve {
   bool drafts_allowed = false;
   RowClosure closure;  ///< that the columns have been scaled by; no scale: they have not
   bool closure_pending = false;
-  std::vector<glm::dvec3> local_irradiance;  ///< LocalPass::irradiance
+  std::vector<glm::dvec3> local_irradiance;       ///< LocalPass::irradiance
+  bool final_gather = false;                      ///< SolveOptions::final_gather
+  std::shared_ptr<const GatheredLight> gathered;  ///< FinalGather::light, or null
 
   double seconds = 0, cpu_seconds = 0, mesh_seconds = 0, plan_seconds = 0;
   std::uint64_t shots = 0, rows = 0, drawn = 0;

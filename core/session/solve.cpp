@@ -74,6 +74,7 @@ void Solve::Impl::setUp(const std::function<gl::Context&()>& gl, const CancelTok
   seconds.mesh = prepared.mesh_seconds;
   seconds.plan = prepared.plan_seconds;
   sky = prepared.sky;
+  if (!options.final_gather) options.final_gather = prepared.gathers;
 
   cancel.check();
   makeTransport(gl, cancel);
@@ -100,6 +101,7 @@ void Solve::Impl::setUp(const std::function<gl::Context&()>& gl, const CancelTok
   if (mesh->for_error && transport->receivers().kind == ReceiverKind::kVertices && !options.bounces)
     local_pass = std::make_unique<LocalPass>(*mesh, transport->receivers(), form_factors_key != "closed-form",
                                              workers);
+  planGather();
   bounces_of_light = std::make_unique<Bounces>(mesh, *transport, *state);
   if (prepared.solved) beginWith(std::move(*prepared.solved));
 }
@@ -342,6 +344,7 @@ void Solve::again() {
   s.shared.forgetDirect();
   s.finished_by.reset();
   if (s.local_pass) s.local_pass->forget();
+  if (s.final_gather) s.final_gather->forget();
   s.failure.reset();
   s.mode_failed = s.resting = false;
   s.drafts = {};
@@ -388,7 +391,7 @@ const ErrorEstimates& Solve::estimate(std::size_t more_places) {
   Impl& s = *impl_;
   const double cpu_began = cpuSeconds();
   rest();
-  const std::vector<glm::dvec3> shown = s.shownIrradiance();
+  const MeshField shown = s.shownField();
   s.budget->estimate(more_places, shown);
   s.noteMissedError();
   s.shared.setResidual(*s.mesh, s.budget->patchResiduals(shown));

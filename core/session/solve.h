@@ -52,6 +52,8 @@ struct SolveOptions {
   /// them one by one, while the solution stays up to date: a whole picture after a tenth of the columns, the
   /// end at about the same time.
   bool draft_first = true;
+  /// Whether final gathering (final_gather.h) ends the solve; none: where preparation says so.
+  std::optional<bool> final_gather;
   std::uint32_t hemicube_resolution = 0;  ///< pixels along the top face; 0: chosen
   HemicubeDrawing hemicube_drawing = HemicubeDrawing::kAuto;
   std::size_t kept_bytes = std::size_t{1} << 30;  ///< memory for kept columns of K [bytes]

@@ -16,6 +16,8 @@ constexpr double kLittleUnshot = 0.25;
 constexpr double kMostDrift = 1e-6;
 // What asks for a word is surely above the error asked for, and by estimate so many times as large.
 constexpr double kFarAbove = 3;
+// What final gathering is kept of a limited time, over what some looks let expect, and at most.
+constexpr double kGatherMargin = 1.15, kMostOfTime = 0.7;
 
 }  // namespace
 
@@ -31,10 +33,43 @@ void Solve::Impl::fail(ErrorKind kind, std::string why, std::string advice) {
   stop(SolveState::kFailed, std::move(why));
 }
 
+// Whether final gathering follows, and how much of a limited time it is kept.
+void Solve::Impl::planGather() {
+  if (!options.final_gather.value_or(false) || options.bounces || options.max_shots) return;
+  final_gather = std::make_unique<FinalGather>(*mesh, workers, options.seed);
+  if (!options.max_seconds) return;
+  gather_seconds = kGatherMargin * final_gather->expectedSeconds();
+  if (gather_seconds <= kMostOfTime * *options.max_seconds) return;
+  final_gather.reset();
+  diagnostics.push_back(
+      {Severity::kNote,
+       "not-gathered",
+       "light is shown as hemicubes have it: final gathering, which is nearer to the truth, "
+       "takes about " +
+           figureText(gather_seconds) + " s",
+       {},
+       "--max-seconds " + figureText(std::ceil(gather_seconds / kMostOfTime))});
+  gather_seconds = 0;
+}
+
 // Converged, but for what follows where the mesh was made for the error asked for.
 void Solve::Impl::finish(std::string why) {
   // A bound there is only where light dies out; then what lies below zero is the error that it allows.
   if (measures.solverBound() == kNoBound && !isLight(*state)) return failWithoutSolution();
+  finishAs(SolveState::kConverged, std::move(why));
+}
+
+void Solve::Impl::finishAs(SolveState how, std::string why) {
+  finishes_as = how;
+  if (final_gather) {
+    finished_by = std::move(why);
+    const MeshField direct = makeField(*mesh, transport->receivers(), state->direct());
+    std::optional<double> left;
+    if (options.max_seconds) left = *options.max_seconds - measures.seconds;
+    return final_gather->begin(*state, makeField(*mesh, transport->receivers(), shownIrradiance()), direct,
+                               left);
+  }
+  if (how != SolveState::kConverged) return stop(how, std::move(why));
   last_sweeps = {};
   if (mesh->for_error && !options.max_shots && !options.bounces) last_sweeps.begin();
   local_passes_left = local_pass ? LocalPass::kPasses : 0;
@@ -55,6 +90,7 @@ void Solve::Impl::finishBegun() {
 // Goes on with the last sweeps and the local pass, which bring the good end nearer to the truth but are no
 // condition of it.
 void Solve::Impl::sharpen() {
+  if (final_gather) return sharpenByGather();
   const bool sweeping = last_sweeps.running();
   const SolverBounds reached_with = measures.bounds;  // sharpened
   if (sweeping) {
@@ -78,6 +114,17 @@ void Solve::Impl::sharpen() {
   const bool passing = local_passes_left > 0 || (local_pass && local_pass->running());
   if ((!last_sweeps.running() && !passing) || out_of_time)
     stop(SolveState::kConverged, *std::exchange(finished_by, std::nullopt));
+}
+
+void Solve::Impl::sharpenByGather() {
+  const SolverBounds reached_with = measures.bounds;
+  final_gather->advance();
+  measure();
+  measures.bounds = SolverBounds::tighter(measures.bounds, reached_with);
+  if (options.max_seconds && measures.seconds >= *options.max_seconds) final_gather->finish();
+  if (final_gather->running()) return;
+  if (finishes_as == SolveState::kLimit) measures.bounds = budget->sharpen();
+  stop(finishes_as, *std::exchange(finished_by, std::nullopt));
 }
 
 bool Solve::Impl::lacksBound() const {
@@ -117,8 +164,8 @@ void Solve::Impl::checkLimits() {
     finish(boundReached());
   } else if (options.max_shots && measures.shots >= *options.max_shots) {
     stop(SolveState::kLimit, "max_shots");
-  } else if (options.max_seconds && measures.seconds >= *options.max_seconds) {
-    stop(SolveState::kLimit, "max_seconds");
+  } else if (options.max_seconds && measures.seconds >= *options.max_seconds - gather_seconds) {
+    finishAs(SolveState::kLimit, "max_seconds");
   }
 }
 

@@ -18,6 +18,7 @@
 #include "session/draft_refinement.h"
 #include "session/error_budget.h"
 #include "session/fields.h"
+#include "session/final_gather.h"
 #include "session/known_solution.h"
 #include "session/last_sweeps.h"
 #include "session/local_pass.h"
@@ -74,8 +75,11 @@ struct Solve::Impl {
   double measured_wall = 0, measured_cpu = 0;  // when `measures` were taken
   SharedFields shared;
   StagnationWatch stagnation;
-  std::unique_ptr<LocalPass> local_pass;   // where the mesh is refined
-  std::optional<std::string> finished_by;  // what ends the solve once what follows is through
+  std::unique_ptr<LocalPass> local_pass;      // where the mesh is refined
+  std::unique_ptr<FinalGather> final_gather;  // where hemicubes leave more than its noise
+  double gather_seconds = 0;                  // that it is kept of a limited time
+  std::optional<std::string> finished_by;     // what ends the solve once what follows is through
+  SolveState finishes_as = SolveState::kConverged;
   LastSweeps last_sweeps;
   int local_passes_left = 0;
   bool begun_solved = false;  // by the trial of its mesh, whose local pass is at its end too
@@ -112,7 +116,11 @@ struct Solve::Impl {
   void noteMissedError();
   double target() const;
   std::vector<glm::dvec3> shownIrradiance() const;
+  MeshField shownField() const;
+  void planGather();
   void finish(std::string why);
+  void finishAs(SolveState how, std::string why);
+  void sharpenByGather();
   void finishBegun();
   void sharpen();
   void record();

@@ -16,12 +16,23 @@ std::vector<glm::dvec3> Solve::Impl::shownIrradiance() const {
   return out;
 }
 
+// With final gathering, where one has ended.
+MeshField Solve::Impl::shownField() const {
+  if (final_gather && final_gather->light()) return final_gather->light()->irradiance;
+  return makeField(*mesh, transport->receivers(), shownIrradiance());
+}
+
 Snapshot Solve::snapshot() const {
   const Impl& s = *impl_;
-  Snapshot out = makeFields(s.mesh, s.transport->receivers(), s.shownIrradiance(), *s.state, *s.ambient);
+  Snapshot out = makeFields(s.mesh, s.shownField(), *s.state, *s.ambient);
   out.sky = s.sky;
   out.measures = s.measures;
   impl_->shared.addTo(out, *s.transport, *s.state, s.budget->bounds());
+  if (s.final_gather && s.final_gather->light()) {
+    const std::shared_ptr<const GatheredLight>& light = s.final_gather->light();
+    out.direct = {light, &light->direct.vertices};
+    out.element_direct = {light, &light->direct.elements};
+  }
   out.bounce_light = s.bounces_of_light->light();
   if (!out.bounce_light && s.mode) {
     std::vector<glm::dvec3> powers = s.mode->bouncePowers();
@@ -45,7 +56,9 @@ double Solve::progress() const {
 
 std::string Solve::activity() const {
   const Impl& s = *impl_;
-  return s.mode && s.progress_state == SolveState::kRunning ? s.mode->activity() : std::string();
+  if (s.progress_state != SolveState::kRunning) return {};
+  if (s.finished_by && s.final_gather && s.final_gather->running()) return "gathering";
+  return s.mode ? s.mode->activity() : std::string();
 }
 
 EnergyBalance Solve::energy() const { return energyOf(*impl_->transport, *impl_->state); }

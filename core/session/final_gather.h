@@ -1,0 +1,90 @@
+// Final gathering: a solve's light at every vertex of the mesh, by rays through the true geometry, in place
+// of what hemicubes have counted.
+//
+// First the light that the solve has on its elements goes on, bounce after bounce, by one look of each
+// element at all others from random points of it: Jacobi's iteration with random rows, which ends when the
+// light hardly changes. Then each vertex takes a look, and more as long as there is time. Straight from
+// emitters light comes by their exact factors and shadow rays, so that shadows are as sharp as the mesh
+// allows.
+//
+// Source: M. C. Reichert, "A two-pass radiosity method driven by lights and viewer position", 1992. Error:
+// the mesh's, for light that is interpolated between vertices; noise of a few percent at each of them, more
+// where thousands of lamps are about equally near; nothing of hemicubes is left.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/workers.h"
+#include "formfactor/receivers.h"
+#include "mesh/element_points.h"
+#include "session/gather.h"
+#include "session/sent_light.h"
+#include "session/snapshot.h"
+
+namespace unshot {
+
+/// What one came to.
+struct GatheredLight {
+  MeshField irradiance;  ///< H
+  MeshField direct;      ///< H_d, of it what comes straight from emitters and the sky
+};
+
+class FinalGather {
+ public:
+  /// The mesh must outlive it. `workers` share it out; the light is the same with any number of them.
+  FinalGather(const Mesh& mesh, std::shared_ptr<Workers> workers, std::uint64_t seed);
+
+  /// Wall time that one takes [s], by the time of some looks now.
+  double expectedSeconds() const;
+  /// Starts with what the solve has: `irradiance` and `direct` as they are shown. Vertices look as often as
+  /// `seconds` of wall time allow, once at least; none: twice.
+  void begin(const RadiosityState& state, const MeshField& irradiance, const MeshField& direct,
+             std::optional<double> seconds);
+  bool running() const { return stage_ != Stage::kRest; }
+  /// Fraction of the looks taken, were all bounces needed.
+  double progress() const;
+  /// Goes on for some milliseconds.
+  void advance();
+  /// Ends it at once: vertices that have not looked yet keep what they began with.
+  void finish();
+  /// What the last one that has ended came to; null before.
+  const std::shared_ptr<const GatheredLight>& light() const { return light_; }
+  void restore(std::shared_ptr<const GatheredLight> light) { light_ = std::move(light); }
+  void forget();
+
+ private:
+  enum class Stage { kRest, kBounces, kVertices };
+
+  void prepare() const;
+  glm::dvec3 lookFrom(std::span<const glm::dvec3> positions, const glm::dvec3& normal, std::uint64_t stream,
+                      glm::dvec3& direct) const;
+  void lookFromElement(std::uint32_t element);
+  void lookFromVertex(std::uint32_t vertex);
+  void endBounce();
+  void endRound();
+
+  const Mesh& mesh_;
+  std::shared_ptr<Workers> workers_;
+  std::uint64_t seed_;
+  // Made when first needed.
+  mutable std::optional<Gatherer> gatherer_;
+  mutable std::optional<Receivers> receivers_;  // at vertices
+  mutable std::optional<ElementPoints> points_;
+
+  Stage stage_ = Stage::kRest;
+  int bounce_ = 0, round_ = 0;          // of elements and of vertices
+  double until_ = 0, round_began_ = 0;  // wall time [s]
+  std::uint32_t next_ = 0;              // element or vertex
+  SentLight sent_;
+  std::vector<glm::dvec3> reflectance_;        // one per element
+  std::vector<glm::dvec3> element_direct_;     // H_d, one per element, mean of the bounces so far [W/m^2]
+  std::vector<glm::dvec3> next_light_;         // one per element [W/m^2]
+  std::vector<glm::dvec3> vertices_, direct_;  // one per vertex [W/m^2]
+  std::shared_ptr<const GatheredLight> light_;
+};
+
+}  // namespace unshot
