@@ -294,6 +294,7 @@ void Solve::step(std::uint64_t most_shots) {
   } catch (...) {
     fail(presentError());
   }
+  s.sayIdle();
 }
 
 void Solve::Impl::advance(std::uint64_t most_shots) {
@@ -301,7 +302,9 @@ void Solve::Impl::advance(std::uint64_t most_shots) {
   if (begun_solved && measures.shots == 0) return finishBegun();
   bool nothing_left = false;
   bool refined = true;
-  if (closeRows()) {
+  if (computeIdle()) {
+    refined = false;
+  } else if (closeRows()) {
     // Nothing else in this step: what it has brought is looked at first.
   } else if (drafts.due(*transport, measures.solverBound() <= target())) {
     refine();
