@@ -100,6 +100,7 @@ SolvedAtOnce solveAtOnce(const Mesh& mesh, std::uint64_t seed, const CancelToken
   Residuals residuals(mesh, transport.receivers(), false, seed);
   residuals.add(kPlaces, shown);
   out.error = residuals.estimate(state, matrix, shown, false).both;
+  out.places = residuals.takePlaces();
   out.values = state.values();
   for (std::uint32_t q = 0; q < mesh.patch_count; ++q) out.columns.push_back(*transport.take(q, false));
   return out;

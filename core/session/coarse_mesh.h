@@ -27,6 +27,7 @@ struct SolvedAtOnce {
   RadiosityState::Values values;
   std::vector<glm::dvec3> local_irradiance;  ///< LocalPass::irradiance; empty where the mesh has no base
   ErrorEstimate error;                       ///< of form factors and mesh together
+  std::vector<ResidualPlace> places;         ///< that it was estimated at (ResidualPlaces::take)
 };
 
 struct CoarseMesh {

@@ -108,6 +108,7 @@ void Solve::Impl::setUp(const std::function<gl::Context&()>& gl, const CancelTok
 void Solve::Impl::beginWith(SolvedAtOnce solved) {
   for (std::uint32_t q = 0; q < mesh->patch_count; ++q) transport->restore(q, std::move(solved.columns[q]));
   rows_before = transport->computed() - mesh->patch_count;
+  budget->offerPlaces(std::move(solved.places));
   // Where much is reflected, rows are closed first.
   begun_solved = options.mode == "auto" && !options.max_shots && !options.bounces && !high_gain &&
                  state->setValues(std::move(solved.values));
