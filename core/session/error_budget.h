@@ -30,6 +30,8 @@ class ErrorBudget {
   /// The bounds as sharp as they get, whatever it takes (a few sweeps).
   const SolverBounds& sharpen();
   const ErrorBounds& bounds() const { return bounds_; }
+  /// As PatchMatrix::allowOneChannel.
+  void allowOneChannel(bool allowed) { matrix_.allowOneChannel(allowed); }
   /// The first estimate may go by these places, as far as it asks for so many (ResidualPlaces::restore).
   void offerPlaces(std::vector<ResidualPlace> places) { offered_ = std::move(places); }
   /// Estimates of what form factors and mesh leave wrong, from so many more places than before.

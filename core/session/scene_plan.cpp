@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <iterator>
 
+#include "base/colour.h"
 #include "base/text.h"
 #include "formfactor/methods.h"
 #include "mesh/lit.h"
@@ -40,6 +41,9 @@ constexpr PlanRow kRows[] = {
     {{plan_keys::kFineness, "Elements that the error does not ask for",
       "a mesh finer than a coarse one that was tried and is good enough"},
      "within the error asked for, by estimate"},
+    {{plan_keys::kChannels, "Channels that are alike",
+      "sums over patches and receivers for each channel, where all that light meets is grey"},
+     "exact: the same sums, to the last bit"},
     {{plan_keys::kShooters, "Patches that need not shoot",
       "form factors of patches that are black, or whose light does not matter to the error asked for"},
      "within the error asked for, by the solver's bound; black patches have nothing to send"}};
@@ -156,6 +160,14 @@ std::vector<PlanDecision> makePlan(const PlannedSolve& solve) {
                                ? "144 rays from each of " + countedText(mesh.patch_count, "patch", "patches")
                                : "a row of form factors for each receiver",
                            by_rays ? solve.error : 0));
+  }
+  const bool grey = isGrey(solve.sky) && std::all_of(mesh.sides.begin(), mesh.sides.end(), [](const Side& s) {
+                      return isGrey(s.reflectance) && isGrey(s.emission);
+                    });
+  if (grey && leavesOut(solve.done, plan_keys::kChannels)) {
+    out.push_back(decision(plan_keys::kChannels, "two of three channels in sums over patches and receivers",
+                           "all reflectances and emissions that light meets are grey, so channels are alike",
+                           "two thirds of these sums"));
   }
   return out;
 }

@@ -33,6 +33,7 @@ inline constexpr std::string_view kEscape = "escape";
 inline constexpr std::string_view kHemicubes = "hemicubes";
 inline constexpr std::string_view kEvenLight = "even-light";
 inline constexpr std::string_view kFineness = "fineness";
+inline constexpr std::string_view kChannels = "channels";
 inline constexpr std::string_view kShooters = "shooters";
 }  // namespace plan_keys
 
@@ -66,6 +67,7 @@ struct PlannedSolve {
   std::string_view form_factors;  ///< key of the method
   double error = 0.01;            ///< asked for
   bool emit_front_only = false;
+  glm::dvec3 sky{0.0};  ///< its radiosity [W/m^2]
   const DoAnyway& done;
 };
 

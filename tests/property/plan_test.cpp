@@ -202,6 +202,47 @@ TEST(Plan, SavesFormFactorsOfPatchesThatNeedNotShoot) {
   EXPECT_LT(apart, pair.with->measures().solverBound() + pair.without->measures().solverBound());
 }
 
+// A grey room with a block in it, but for a trace of red in the block.
+Scene greyRoom(double red) {
+  SceneBuilder b;
+  const auto grey = b.material("grey", glm::dvec3(0.6)),
+             block = b.material("block", glm::dvec3(0.4) + glm::dvec3(red, 0, 0)),
+             lamp = b.material("lamp", glm::dvec3(0.3), glm::dvec3(4));
+  addBox(b, allOf(grey), {0, 0, 0}, {4, 3, 4}, true);
+  addBox(b, allOf(block), {1, 0.5, 1}, {1, 1, 1}, false);
+  b.quad(lamp, {2, 2.9, 1}, {1, 0, 0}, {0, 0, 1});
+  return b.finish();
+}
+
+// The same to the last bit, whatever the mode.
+TEST(Plan, WorksOutGreyLightInOneChannel) {
+  for (const char* mode : {"southwell", "gmres", "chebyshev"}) {
+    SolveOptions options = soonest(0.02);
+    options.mode = mode;
+    const Pair pair = solvedBothWays([] { return greyRoom(0); }, options, plan_keys::kChannels);
+    EXPECT_EQ(pair.without->measures().shots, pair.with->measures().shots) << mode;
+    EXPECT_EQ(pair.without->measures().bounds.upper, pair.with->measures().bounds.upper) << mode;
+    EXPECT_EQ(pair.without->snapshot().irradiance, pair.with->snapshot().irradiance) << mode;
+    for (const glm::vec3& h : pair.without->snapshot().irradiance) ASSERT_TRUE(h.x == h.y && h.y == h.z);
+  }
+  EXPECT_EQ(keysOf(*solved(greyRoom(1e-6), soonest(0.02))).count("channels"), 0u);
+}
+
+// Light that was coloured before the materials were made grey goes on channel by channel.
+TEST(Plan, IsNotFooledByColouredLightThatIsLeftInAGreyScene) {
+  const auto gl = []() -> gl::Context& { return sharedContext(); };
+  const SolveOptions options = soonest(0.005);
+  const auto before = solved(greyRoom(0.4), options);
+  EXPECT_EQ(keysOf(*before).count("channels"), 0u);
+  Solve after(*before, greyRoom(0).materials, gl);
+  EXPECT_EQ(keysOf(after).count("channels"), 1u);
+  EXPECT_EQ(after.state(), SolveState::kRunning);
+  while (after.state() == SolveState::kRunning) after.step();
+  const double apart = difference(*solved(greyRoom(0), options), after);
+  measured("apart", apart);
+  EXPECT_LT(apart, 2 * options.error);
+}
+
 TEST(Plan, IsSwitchedOffAsAWhole) {
   SolveOptions options = soonest(0.05);
   options.do_anyway = doAll();
