@@ -50,7 +50,7 @@ CoarseMesh findCoarseMesh(const CoarseTrial& trial, const CancelToken& cancel) {
   const double last = kLast * trial.usual;
   for (double elements = kFirst * trial.usual; elements <= last;) {
     std::shared_ptr<const Mesh> mesh = trial.make(elements);
-    SolvedAtOnce solved = solveAtOnce(*mesh, trial.seed, cancel);
+    SolvedAtOnce solved = solveAtOnce(*mesh, trial.seed, trial.one_channel, cancel);
     const ErrorEstimate found = solved.error;
     if (found.places == 0) break;
     if (found.high <= kTrusted * trial.error) return {std::move(mesh), std::move(solved)};
@@ -61,7 +61,7 @@ CoarseMesh findCoarseMesh(const CoarseTrial& trial, const CancelToken& cancel) {
   return {};
 }
 
-SolvedAtOnce solveAtOnce(const Mesh& mesh, std::uint64_t seed, const CancelToken& cancel) {
+SolvedAtOnce solveAtOnce(const Mesh& mesh, std::uint64_t seed, bool one_channel, const CancelToken& cancel) {
   FormFactorSetup setup;
   setup.mesh = &mesh;
   setup.cancel = cancel;
@@ -74,6 +74,8 @@ SolvedAtOnce solveAtOnce(const Mesh& mesh, std::uint64_t seed, const CancelToken
   }
   RadiosityState state(transport, emission, reflectance);
   PatchMatrix matrix(transport.receivers(), transport.patchArea(), kAnyMemory);
+  state.allowOneChannel(one_channel);
+  matrix.allowOneChannel(one_channel);
   for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
     cancel.check();
     matrix.set(q, transport.column(q));
@@ -101,6 +103,7 @@ SolvedAtOnce solveAtOnce(const Mesh& mesh, std::uint64_t seed, const CancelToken
   const MeshField field = makeField(mesh, transport.receivers(), shown);
   residuals.add(kPlaces, field);
   out.error = residuals.estimate(state, matrix, field, false).both;
+  out.places = residuals.takePlaces();
   out.values = state.values();
   for (std::uint32_t q = 0; q < mesh.patch_count; ++q) out.columns.push_back(*transport.take(q, false));
   return out;

@@ -17,6 +17,7 @@ struct CoarseTrial {
   double error = 0.01;  ///< of the whole light, asked for
   double usual = 0;     ///< elements of the usual mesh
   std::uint64_t seed = 1;
+  bool one_channel = true;  ///< grey light is solved once (RadiosityState::allowOneChannel)
   /// The mesh of about so many elements, which follows the light.
   std::function<std::shared_ptr<const Mesh>(double)> make;
 };
@@ -27,6 +28,7 @@ struct SolvedAtOnce {
   RadiosityState::Values values;
   std::vector<glm::dvec3> local_irradiance;  ///< LocalPass::irradiance; empty where the mesh has no base
   ErrorEstimate error;                       ///< of form factors and mesh together
+  std::vector<ResidualPlace> places;         ///< that it was estimated at (ResidualPlaces::take)
 };
 
 struct CoarseMesh {
@@ -45,6 +47,6 @@ bool mayBeCoarse(const Mesh& coarsest, double usual);
 CoarseMesh findCoarseMesh(const CoarseTrial& trial, const CancelToken& cancel);
 
 /// The time grows with the square of the mesh's elements.
-SolvedAtOnce solveAtOnce(const Mesh& mesh, std::uint64_t seed, const CancelToken& cancel);
+SolvedAtOnce solveAtOnce(const Mesh& mesh, std::uint64_t seed, bool one_channel, const CancelToken& cancel);
 
 }  // namespace unshot

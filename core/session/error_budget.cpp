@@ -121,7 +121,14 @@ const SolverBounds& ErrorBudget::sharpen() {
 
 const ErrorEstimates& ErrorBudget::estimate(std::size_t more_places, const MeshField& shown) {
   const Timed timed(seconds_);
-  if (!residuals_) residuals_.emplace(mesh_, transport_.receivers(), occlusion_, seed_);
+  if (!residuals_) {
+    residuals_.emplace(mesh_, transport_.receivers(), occlusion_, seed_);
+    if (offered_.size() <= more_places) {
+      more_places -= offered_.size();
+      residuals_->restorePlaces(std::move(offered_));
+    }
+    offered_.clear();
+  }
   residuals_->add(more_places, shown);
   estimates_ = residuals_->estimate(state_, matrix_, shown, matrixIsNearlyWhole());
   if (defects_version_ != matrix_.version()) {
@@ -146,6 +153,7 @@ bool ErrorBudget::matrixIsNearlyWhole() const {
 }
 
 void ErrorBudget::forgetPlaces() {
+  offered_.clear();
   if (residuals_) residuals_->forgetPlaces();
 }
 

@@ -30,6 +30,10 @@ class ErrorBudget {
   /// The bounds as sharp as they get, whatever it takes (a few sweeps).
   const SolverBounds& sharpen();
   const ErrorBounds& bounds() const { return bounds_; }
+  /// As PatchMatrix::allowOneChannel.
+  void allowOneChannel(bool allowed) { matrix_.allowOneChannel(allowed); }
+  /// The first estimate may go by these places, as far as it asks for so many (ResidualPlaces::restore).
+  void offerPlaces(std::vector<ResidualPlace> places) { offered_ = std::move(places); }
   /// Estimates of what form factors and mesh leave wrong, from so many more places than before.
   /// `shown`: H as it is shown.
   const ErrorEstimates& estimate(std::size_t more_places, const MeshField& shown);
@@ -54,6 +58,7 @@ class ErrorBudget {
   ErrorBounds bounds_;
   SolverBounds now_;
   std::optional<Residuals> residuals_;
+  std::vector<ResidualPlace> offered_;
   ErrorEstimates estimates_;
   FormFactorDefects defects_;
   std::uint64_t defects_version_ = 0;  // of the matrix

@@ -106,6 +106,7 @@ CoarseMesh coarseMesh(const SurfacesOfScene& surfaces, const SolveOptions& optio
       {.error = options.error,
        .usual = usual,
        .seed = options.seed,
+       .one_channel = leavesOut(options.do_anyway, plan_keys::kChannels),
        .make =
            [&](double elements) {
              return refineForLight(baseMesh(surfaces, mesh_options, elements, cancel), refinement, cancel);
@@ -179,8 +180,8 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
   if (to_refine && out.mesh->base) decisions.push_back(withoutEvenLight(*out.mesh, options.error));
   cancel.report(kMeshShare);
   const double plan_began = wallSeconds();
-  out.plan = makePlan(
-      {scene, *out.mesh, out.form_factors, options.error, options.emit_front_only, options.do_anyway});
+  out.plan = makePlan({scene, *out.mesh, out.form_factors, options.error, options.emit_front_only, out.sky,
+                       options.do_anyway});
   out.plan.insert(out.plan.end(), decisions.begin(), decisions.end());
   out.diagnostics = scene.diagnostics;
   out.diagnostics.insert(out.diagnostics.end(), out.mesh->diagnostics.begin(), out.mesh->diagnostics.end());

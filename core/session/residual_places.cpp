@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "base/random.h"
 
@@ -107,6 +108,10 @@ void ResidualPlaces::forget() {
   at_receivers_.clear();
 }
 
+std::vector<ResidualPlace> ResidualPlaces::take() {
+  return exact_ ? std::exchange(points_, {}) : std::vector<ResidualPlace>();
+}
+
 void ResidualPlaces::add(std::size_t places, const MeshField& shown) {
   if (places == 0 || triangle_area_sum_.empty() || triangle_area_sum_.back() <= 0 ||
       receiver_area_sum_.back() <= 0)
@@ -139,7 +144,7 @@ void ResidualPlaces::addPoint(std::uint64_t number) {
                 glm::dvec3(mesh_.vertices[mesh_.triangle_vertices[3 * place.triangle + k]].position);
   const glm::dvec3& normal = mesh_.sides[mesh_.element_side[element]].normal;
   place.looks[0] = look(position, normal, mixBits(bits + 2));
-  place.looks[1] = exact_ ? place.looks[0] : look(position, normal, mixBits(bits + 3));
+  if (!exact_) place.looks[1] = look(position, normal, mixBits(bits + 3));
   points_.push_back(std::move(place));
 }
 

@@ -21,7 +21,7 @@ struct ResidualPlace {
   glm::dvec3 weights{0.0};     ///< of a point: barycentric in it
   std::uint32_t receiver = 0;  ///< of a receiver
   double weight = 1;           ///< density of even places over that of these
-  Gather looks[2];
+  Gather looks[2];             ///< where looks are exact the first alone, as another would be the same
 };
 
 class ResidualPlaces {
@@ -35,8 +35,13 @@ class ResidualPlaces {
   /// which `shown` is H as it is shown: a few bright places can hold most of an error. Surfaces that emit
   /// have places too, for what goes on from there.
   void add(std::size_t places, const MeshField& shown);
-  /// Whether looks are exact (exact_look.h): both of a place are the same.
+  /// Whether looks are exact (exact_look.h).
   bool exact() const { return exact_.has_value(); }
+  /// Gives the points away, for restore() of other places of this mesh, seed and occlusion; none where looks
+  /// are not exact.
+  std::vector<ResidualPlace> take();
+  /// Has these points as if they had been added. Before any other.
+  void restore(std::vector<ResidualPlace> points) { points_ = std::move(points); }
   /// Those that follow are chosen by the light as it is then.
   void forget();
   const std::vector<ResidualPlace>& points() const { return points_; }

@@ -45,8 +45,10 @@ class Residuals {
   /// All outlive the residuals. `occlusion`: whether anything can stand between two points.
   Residuals(const Mesh& mesh, const Receivers& receivers, bool occlusion, std::uint64_t seed);
 
-  /// As ResidualPlaces::add and ::forget.
+  /// As ResidualPlaces::add, ::take, ::restore and ::forget.
   void add(std::size_t places, const MeshField& shown) { places_.add(places, shown); }
+  std::vector<ResidualPlace> takePlaces() { return places_.take(); }
+  void restorePlaces(std::vector<ResidualPlace> points) { places_.restore(std::move(points)); }
   std::size_t places() const { return places_.points().size(); }
   void forgetPlaces() { places_.forget(); }
 

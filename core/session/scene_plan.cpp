@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <iterator>
 
+#include "base/colour.h"
 #include "base/text.h"
 #include "formfactor/methods.h"
 #include "mesh/lit.h"
@@ -39,7 +40,13 @@ constexpr PlanRow kRows[] = {
      "within the error asked for, by estimate"},
     {{plan_keys::kFineness, "Elements that the error does not ask for",
       "a mesh finer than a coarse one that was tried and is good enough"},
-     "within the error asked for, by estimate"}};
+     "within the error asked for, by estimate"},
+    {{plan_keys::kChannels, "Channels that are alike",
+      "sums over patches and receivers for each channel, where all that light meets is grey"},
+     "exact: the same sums, to the last bit"},
+    {{plan_keys::kShooters, "Patches that need not shoot",
+      "form factors of patches that are black, or whose light does not matter to the error asked for"},
+     "within the error asked for, by the solver's bound; black patches have nothing to send"}};
 
 const PlanRow& rowOf(std::string_view key) { return findChoice(planRows(), key, "decision of the plan"); }
 
@@ -154,6 +161,14 @@ std::vector<PlanDecision> makePlan(const PlannedSolve& solve) {
                                : "a row of form factors for each receiver",
                            by_rays ? solve.error : 0));
   }
+  const bool grey = isGrey(solve.sky) && std::all_of(mesh.sides.begin(), mesh.sides.end(), [](const Side& s) {
+                      return isGrey(s.reflectance) && isGrey(s.emission);
+                    });
+  if (grey && leavesOut(solve.done, plan_keys::kChannels)) {
+    out.push_back(decision(plan_keys::kChannels, "two of three channels in sums over patches and receivers",
+                           "all reflectances and emissions that light meets are grey, so channels are alike",
+                           "two thirds of these sums"));
+  }
   return out;
 }
 
@@ -186,6 +201,24 @@ PlanDecision withoutEvenLight(const Mesh& mesh, double error) {
           std::to_string(mesh.base->element_count) + " even elements",
       std::to_string(mesh.element_count) + " elements instead of some " + figureText(mesh.lit_area / *fine),
       error);
+}
+
+PlanDecision withoutShooters(const IdleShooters& shooters, double error) {
+  const std::size_t faint = shooters.idle - shooters.black;
+  std::string why;
+  if (shooters.black > 0)
+    why = countedText(shooters.black, "patch", "patches") + (shooters.black == 1 ? " is" : " are") + " black";
+  if (faint > 0) {
+    why += (why.empty() ? "" : "; ") + std::string("the error asked for was reached before the light of ") +
+           std::to_string(faint) + " mattered: all that is unshot is " +
+           figureText(100 * shooters.unshot_fraction) + " % of what was emitted";
+  }
+  const double share = static_cast<double>(shooters.idle) / static_cast<double>(shooters.patches);
+  return decision(plan_keys::kShooters,
+                  "form factors of " + std::to_string(shooters.idle) + " of " +
+                      std::to_string(shooters.patches) + " patches",
+                  std::move(why), std::to_string(static_cast<int>(100 * share + 0.5)) + " % of the patches",
+                  faint > 0 ? error : 0);
 }
 
 }  // namespace unshot

@@ -33,6 +33,8 @@ inline constexpr std::string_view kEscape = "escape";
 inline constexpr std::string_view kHemicubes = "hemicubes";
 inline constexpr std::string_view kEvenLight = "even-light";
 inline constexpr std::string_view kFineness = "fineness";
+inline constexpr std::string_view kChannels = "channels";
+inline constexpr std::string_view kShooters = "shooters";
 }  // namespace plan_keys
 
 /// Keys of what is done all the same.
@@ -65,6 +67,7 @@ struct PlannedSolve {
   std::string_view form_factors;  ///< key of the method
   double error = 0.01;            ///< asked for
   bool emit_front_only = false;
+  glm::dvec3 sky{0.0};  ///< its radiosity [W/m^2]
   const DoAnyway& done;
 };
 
@@ -76,5 +79,13 @@ PlanDecision withoutHemicubes(const Mesh& mesh, double error);
 PlanDecision withoutFineness(const Mesh& mesh, double error, const ErrorEstimate& found, double usual);
 /// That the mesh follows the light.
 PlanDecision withoutEvenLight(const Mesh& mesh, double error);
+/// Of a solve that has converged: so many of its patches had to send nothing, of which so many are black, and
+/// what was left unshot is this share of what was emitted.
+struct IdleShooters {
+  std::size_t patches = 0, idle = 0, black = 0;
+  double unshot_fraction = 0;
+};
+/// That these did not shoot; `error`: that was asked for.
+PlanDecision withoutShooters(const IdleShooters& shooters, double error);
 
 }  // namespace unshot

@@ -91,6 +91,10 @@ void Solve::Impl::setUp(const std::function<gl::Context&()>& gl, const CancelTok
   budget = std::make_unique<ErrorBudget>(*mesh, *transport, *state, options.kept_bytes / options.sharers / 4,
                                          form_factors_key != "closed-form" || !nothingCanOcclude(*mesh),
                                          options.seed);
+  const bool one_channel = std::any_of(plan.begin(), plan.end(),
+                                       [](const PlanDecision& d) { return d.key == plan_keys::kChannels; });
+  state->allowOneChannel(one_channel);
+  budget->allowOneChannel(one_channel);
   transport->watchColumns([this](std::uint32_t q, const Column& column) {
     // What the sky shines on need not see each other.
     if (q < mesh->patch_count) ambient->sees(q, column, transport->receivers());
@@ -110,6 +114,7 @@ void Solve::Impl::setUp(const std::function<gl::Context&()>& gl, const CancelTok
 void Solve::Impl::beginWith(SolvedAtOnce solved) {
   for (std::uint32_t q = 0; q < mesh->patch_count; ++q) transport->restore(q, std::move(solved.columns[q]));
   rows_before = transport->computed() - mesh->patch_count;
+  budget->offerPlaces(std::move(solved.places));
   // Where much is reflected, rows are closed first.
   begun_solved = options.mode == "auto" && !options.max_shots && !options.bounces && !high_gain &&
                  state->setValues(std::move(solved.values));
@@ -296,6 +301,7 @@ void Solve::step(std::uint64_t most_shots) {
   } catch (...) {
     fail(presentError());
   }
+  s.sayIdle();
 }
 
 void Solve::Impl::advance(std::uint64_t most_shots) {
@@ -303,7 +309,9 @@ void Solve::Impl::advance(std::uint64_t most_shots) {
   if (begun_solved && measures.shots == 0) return finishBegun();
   bool nothing_left = false;
   bool refined = true;
-  if (closeRows()) {
+  if (computeIdle()) {
+    refined = false;
+  } else if (closeRows()) {
     // Nothing else in this step: what it has brought is looked at first.
   } else if (drafts.due(*transport, measures.solverBound() <= target())) {
     refine();

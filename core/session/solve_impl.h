@@ -3,6 +3,7 @@
 // - solve_queries.cpp answers what can be asked of it;
 // - solve_end.cpp says when and why it ends;
 // - row_closing.cpp closes its rows;
+// - idle_shooters.cpp says which patches need not shoot;
 // - saved_solve.cpp writes it into a file and takes it up again;
 // - edited_solve.cpp goes on with other materials;
 // - solve_inside.cpp lets others look on.
@@ -65,6 +66,7 @@ struct Solve::Impl {
   Measures measures;
   std::vector<HistoryEntry> history;
   bool resting = false, mode_failed = false, room_noted = false, error_noted = false;
+  std::uint32_t next_idle = 0;    // all before have a column, where patches that need not shoot are to
   std::uint32_t next_column = 0;  // all before are known, or nothing is sent from there
   // Whether rows are still to be closed (formfactor/closure.h), and what escapes of each receiver's view
   // where that is known; empty: no surface has seen an opening so far.
@@ -128,6 +130,8 @@ struct Solve::Impl {
   void advance(std::uint64_t most_shots);
   bool lacksBound() const;
   bool completeColumns();
+  bool computeIdle();
+  void sayIdle();
   void planClosure(const CancelToken& cancel);
   void noteOpening(double escape);
   bool closureIsDue() const;

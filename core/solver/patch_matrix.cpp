@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/colour.h"
+
 namespace unshot {
 namespace {
 
@@ -32,6 +34,8 @@ double dot(const float* a, const double* b, std::size_t count) {
   for (; k < count; ++k) sums[0] += static_cast<double>(a[k]) * b[k];
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
+
+bool allGrey(std::span<const glm::dvec3> x) { return std::all_of(x.begin(), x.end(), isGrey); }
 
 }  // namespace
 
@@ -138,6 +142,19 @@ void PatchMatrix::forEachRun(std::uint32_t q, F&& f) const {
 }
 
 void PatchMatrix::product(std::span<const glm::dvec3> x, std::span<glm::dvec3> out) const {
+  if (one_channel_ && allGrey(x)) {
+    std::vector<double> sums(out.size(), 0.0);
+    for (std::uint32_t q = 0; q < columns_.size(); ++q) {
+      const double sent = x[q].x;
+      if (sent == 0) continue;
+      forEachRun(q, [&](std::uint32_t first, const float* values, std::size_t count) {
+        double* sum = &sums[first];
+        for (std::size_t k = 0; k < count; ++k) sum[k] += static_cast<double>(values[k]) * sent;
+      });
+    }
+    for (std::size_t p = 0; p < out.size(); ++p) out[p] = glm::dvec3(sums[p]);
+    return;
+  }
   Channels sums(out.size());
   for (std::uint32_t q = 0; q < columns_.size(); ++q) {
     const glm::dvec3 sent = x[q];
@@ -165,6 +182,18 @@ glm::dvec3 PatchMatrix::transposed(std::uint32_t q, std::span<const glm::dvec3> 
 }
 
 void PatchMatrix::transposed(std::span<const glm::dvec3> x, std::span<glm::dvec3> out) const {
+  if (one_channel_ && allGrey(x)) {
+    std::vector<double> weighted(x.size());
+    for (std::size_t p = 0; p < x.size(); ++p) weighted[p] = area_[p] * x[p].x;
+    for (std::uint32_t q = 0; q < columns_.size(); ++q) {
+      double sum = 0;
+      forEachRun(q, [&](std::uint32_t first, const float* values, std::size_t count) {
+        sum += dot(values, &weighted[first], count);
+      });
+      out[q] = glm::dvec3(sum / area_[q]);
+    }
+    return;
+  }
   Channels weighted(x.size());
   for (std::size_t p = 0; p < x.size(); ++p) {
     weighted.r[p] = area_[p] * x[p].x;

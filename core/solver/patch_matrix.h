@@ -46,6 +46,9 @@ class PatchMatrix {
   /// receivers may be far off. At least 1.
   double usuallySent() const;
 
+  /// Where x is grey, products may go by one channel for all three: the same to the last bit.
+  void allowOneChannel(bool allowed) { one_channel_ = allowed; }
+
   /// out_p = sum_q P_pq x_q over known columns.
   void product(std::span<const glm::dvec3> x, std::span<glm::dvec3> out) const;
   /// out_q = sum_p A_p P_pq x_p / A_q: the mean of x where patch q's light arrives; 0 for unknown columns.
@@ -80,6 +83,7 @@ class PatchMatrix {
   std::span<const double> area_;
   std::size_t budget_, bytes_ = 0, entry_count_ = 0, known_count_ = 0;
   std::uint64_t version_ = 0;
+  bool one_channel_ = false;
   double largest_sent_ = 1;
   std::vector<PatchColumn> columns_;
   std::vector<char> known_, reached_;

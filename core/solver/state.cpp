@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "base/colour.h"
+
 namespace unshot {
 namespace {
 
@@ -19,6 +21,10 @@ RadiosityState::RadiosityState(const Transport& transport, std::vector<glm::dvec
       area_(transport.patchArea()) {
   for (std::size_t q = 0; q < emission_.size(); ++q) emitted_power_ += area_[q] * sumOfChannels(emission_[q]);
   reset();
+}
+
+void RadiosityState::allowOneChannel(bool allowed) {
+  one_channel_ = allowed && std::all_of(reflectance_.begin(), reflectance_.end(), isGrey);
 }
 
 void RadiosityState::reset() {
@@ -91,14 +97,23 @@ glm::dvec3 RadiosityState::takeEmission(std::uint32_t q, const glm::dvec3& d) {
 
 void RadiosityState::receive(std::uint32_t q, const glm::dvec3& d, const Column& column) {
   const Receivers& receivers = transport_.receivers();
-  column.forEach([&](std::uint32_t v, double k) {
-    const glm::dvec3 received = k * d;
-    values_.irradiance[v] += received;
-    for (std::uint32_t s = receivers.start[v]; s < receivers.start[v + 1]; ++s) {
-      const PatchShare& share = receivers.shares[s];
-      values_.unshot[share.patch] += share.area / area_[share.patch] * reflectance_[share.patch] * received;
-    }
-  });
+  // `one` takes a colour, or the one channel for all of it.
+  const auto receiveAll = [&](const auto& sent, auto&& one) {
+    column.forEach([&](std::uint32_t v, double k) {
+      const auto received = k * sent;
+      values_.irradiance[v] += received;
+      for (std::uint32_t s = receivers.start[v]; s < receivers.start[v + 1]; ++s) {
+        const PatchShare& share = receivers.shares[s];
+        values_.unshot[share.patch] +=
+            share.area / area_[share.patch] * one(reflectance_[share.patch]) * received;
+      }
+    });
+  };
+  if (one_channel_ && isGrey(d)) {
+    receiveAll(d.x, [](const glm::dvec3& rho) { return rho.x; });
+  } else {
+    receiveAll(d, [](const glm::dvec3& rho) { return rho; });
+  }
   values_.escaped_power += column.escape * area_[q] * d;
   values_.defect_power += column.defect * area_[q] * d;
 }

@@ -25,6 +25,9 @@ class RadiosityState {
   RadiosityState(const Transport& transport, std::vector<glm::dvec3> emission,
                  std::vector<glm::dvec3> reflectance);
 
+  /// Where all reflectances are grey, what is shot that is grey too may go by one channel for all three: the
+  /// same to the last bit.
+  void allowOneChannel(bool allowed);
   /// Nothing shot again.
   void reset();
 
@@ -103,6 +106,7 @@ class RadiosityState {
   std::vector<glm::dvec3> emission_, reflectance_;
   std::vector<double> area_;
   double emitted_power_ = 0;
+  bool one_channel_ = false;
   Values values_;
 };
 

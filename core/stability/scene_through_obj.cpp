@@ -35,7 +35,7 @@ class Folder {
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
 
-  std::filesystem::path operator/(const char* name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }
 
  private:
   std::filesystem::path path_;
@@ -84,11 +84,15 @@ std::string objOf(const Scene& scene) {
 
 }  // namespace
 
-Scene throughObj(const Scene& scene) {
-  const Folder folder;
+std::filesystem::path writeObj(const Scene& scene, const std::filesystem::path& folder) {
   writeWholeFile(folder / "scene.mtl", mtlOf(scene));
   writeWholeFile(folder / "scene.obj", objOf(scene));
-  return readObj(folder / "scene.obj");
+  return folder / "scene.obj";
+}
+
+Scene throughObj(const Scene& scene) {
+  const Folder folder;
+  return readObj(writeObj(scene, folder.path()));
 }
 
 }  // namespace unshot

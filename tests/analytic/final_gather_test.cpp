@@ -7,7 +7,9 @@
 
 #include "formfactor/polygon_factor.h"
 #include "mesh/build.h"
+#include "scene/analytic_scenes.h"
 #include "session/gather.h"
+#include "session/saved_solve.h"
 #include "support/solving.h"
 #include "support/temp_folder.h"
 #include "support/test_scenes.h"
@@ -50,7 +52,7 @@ TEST(FinalGather, CarriesLightOnToTheEnd) {
   options.hemicube_drawing = HemicubeDrawing::kRays;
   options.final_gather = true;
   options.error = 0.3;
-  const auto solve = solved(furnace(0.8), options);
+  const auto solve = solved(furnaceScene(0.8, 0.2), options);
   const Snapshot snapshot = solve->snapshot();
   double sum = 0, squares = 0;
   for (const glm::vec3& h : snapshot.irradiance) {
@@ -125,7 +127,7 @@ TEST(FinalGather, DrawsAmongManyLampsWithoutBias) {
   }
   MeshOptions options;
   options.emit_front_only = true;
-  const Mesh mesh = meshScene(b.finish(), options);
+  const Mesh mesh = buildMesh(b.finish(), options);
   const Gatherer gatherer(mesh);
   double sum = 0, squares = 0;
   constexpr int kLooks = 4'000;

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
 
 #include "base/clock.h"
 #include "export/probes.h"
 #include "mesh/lit.h"
+#include "stability/scene_through_obj.h"
 #include "support/many_rooms.h"
 #include "support/plan_pairs.h"
+#include "support/run_program.h"
 #include "support/sanitized.h"
 #include "support/solving.h"
 
@@ -91,6 +94,35 @@ TEST(DarkIslands, TakeNoPartInTheSolution) {
   if (!kSanitized) {
     EXPECT_LT(many.cpu_seconds, 4 * one.cpu_seconds);
   }
+}
+
+// 195,000 triangles, alike but for the lamp, of which light reaches a twentieth. Were all lit, they would
+// take twenty times what the twentieth does, and more.
+TEST(DarkIslands, TakeLittleOfTheTimeAndMemoryOfALargeScene) {
+  if (kSanitized) GTEST_SKIP() << "everything takes far longer";
+  constexpr int kAll = 20, kRingsOfAll = 50;
+  const auto report = [](int rooms) {
+    const TempFolder folder;
+    writeObj(manyRooms(rooms, kRingsOfAll, kRingsOfAll), folder.path());
+    runProgram(folder, {"solve", "scene.obj", "--error", "0.1", "--report", "report.json"});
+    return nlohmann::json::parse(folder.read("report.json"));
+  };
+  const auto one = report(1), all = report(kAll);
+  EXPECT_GT(all["scene"]["triangles"], 195'000);
+  // Patches join where surfaces meet smoothly, to the rounding of a larger scene.
+  EXPECT_NEAR(all["counts"]["patches"], one["counts"]["patches"],
+              0.02 * one["counts"]["patches"].get<double>());
+  EXPECT_EQ(all["form_factors"], one["form_factors"]);
+  const auto ratio = [&](const nlohmann::json& a, const nlohmann::json& b) {
+    return a.get<double>() / b.get<double>();
+  };
+  const double cpu = ratio(all["seconds"]["cpu_solve"], one["seconds"]["cpu_solve"]);
+  const double memory = ratio(all["peak_memory_bytes"], one["peak_memory_bytes"]);
+  measured("CPU over that of the lit twentieth alone", cpu);
+  measured("peak memory over that of the lit twentieth alone", memory);
+  measured("peak memory of the whole [MB]", all["peak_memory_bytes"].get<double>() / 1e6);
+  EXPECT_LT(cpu, 4);
+  EXPECT_LT(memory, 4);
 }
 
 /// A room with a lamp and one without, and between them a wall that ends so far below the ceiling.

@@ -1,7 +1,10 @@
 // Small scenes: a coarse mesh where light is even, and what must not be taken for that.
 #include <gtest/gtest.h>
 
+#include "formfactor/transport.h"
+#include "mesh/build.h"
 #include "scene/obj_reader.h"
+#include "session/residual_places.h"
 #include "session/scene_plan.h"
 #include "support/dice.h"
 #include "support/plan_pairs.h"
@@ -181,6 +184,41 @@ TEST(SmallScene, BeginsWithTheLightOfItsTrial) {
   while (solve->state() == SolveState::kRunning) solve->step();
   EXPECT_GT(solve->measures().shots, 0u);
   EXPECT_LT(difference(*solve, *by_mode), options.error);
+}
+
+// The places that a trial was judged at are those of the first estimate, which takes no looks of its own;
+// they are those that it would have chosen.
+TEST(SmallScene, IsEstimatedAtThePlacesOfItsTrial) {
+  const Mesh mesh = buildMesh(cubeOneFaceLit(0.5), {.elements = 200, .element_size = {}});
+  const auto method = methodRow("closed-form");
+  const Transport transport(makeMethod(method, mesh), makeReceivers(mesh, method.receivers), mesh.patch_area,
+                            0);
+  std::vector<glm::dvec3> light(transport.receiverCount(), glm::dvec3(1.0));
+  light.front() = glm::dvec3(2.0);
+  ResidualPlaces first(mesh, transport.receivers(), false, 1), at_once(mesh, transport.receivers(), false, 1),
+      later(mesh, transport.receivers(), false, 1);
+  ASSERT_TRUE(first.exact());
+  first.add(64, light);
+  later.restore(first.take());
+  EXPECT_TRUE(first.points().empty());
+  later.add(32, light);
+  at_once.add(96, light);
+  ASSERT_EQ(later.points().size(), at_once.points().size());
+  for (std::size_t k = 0; k < later.points().size(); ++k) {
+    EXPECT_EQ(later.points()[k].triangle, at_once.points()[k].triangle);
+    EXPECT_EQ(later.points()[k].weights, at_once.points()[k].weights);
+    EXPECT_EQ(later.points()[k].looks[0].shares.size(), at_once.points()[k].looks[0].shares.size());
+  }
+  const TempFolder folder;
+  SolveOptions options = soonest(0.02);
+  options.emit_front_only = true;
+  auto solve = begun(readObj(writeRoom(folder)), options);
+  while (solve->state() == SolveState::kRunning) solve->step();
+  ASSERT_EQ(keysOf(*solve).count("fineness"), 1u);
+  for (const std::size_t places : {64u, 96u}) {
+    solve->estimate(places - solve->places());
+    EXPECT_EQ(solve->places(), places);
+  }
 }
 
 // What is left out of a small scene whose light is even or smooth. Twenty times is asked for; both runs are
