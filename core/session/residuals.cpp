@@ -219,7 +219,8 @@ std::vector<Residuals::Residual> Residuals::receiverResiduals(const RadiositySta
 Residuals::Residual Residuals::residualOf(const ResidualPlace& place, const glm::dvec3& rho,
                                           const SentLight& sent, const glm::dvec3& shown) const {
   const glm::dvec3 first = rho * (irradianceOf(place.looks[0], sent, mesh_) - shown);
-  const glm::dvec3 second = places_.exact() ? first : rho * (irradianceOf(place.looks[1], sent, mesh_) - shown);
+  const glm::dvec3 second =
+      places_.exact() ? first : rho * (irradianceOf(place.looks[1], sent, mesh_) - shown);
   return {place.patch, {first, second}, rho * shown, place.weight, counts(place.patch)};
 }
 

@@ -102,7 +102,9 @@ std::string_view PlanDecision::sure() const { return rowOf(key).sure; }
 
 DoAnyway doAll() {
   DoAnyway out;
-  for (const PlanRow& row : kRows) out.emplace_back(row.info.key);
+  for (const PlanRow& row : kRows) {
+    if (row.info.key != plan_keys::kShooters) out.emplace_back(row.info.key);
+  }
   return out;
 }
 

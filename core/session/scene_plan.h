@@ -40,7 +40,7 @@ inline constexpr std::string_view kShooters = "shooters";
 /// Keys of what is done all the same.
 using DoAnyway = std::vector<std::string>;
 
-/// All keys.
+/// All keys but that of the shooters: what a solve prepares, not how far it iterates.
 DoAnyway doAll();
 /// Keys from a list with commas; throws a usage Error for one that is not in the table.
 DoAnyway doAnyway(std::string_view list);

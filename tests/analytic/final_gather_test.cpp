@@ -30,8 +30,7 @@ SolveOptions coarselySeen(bool gather) {
 }
 
 TEST(FinalGather, IsNearerToTracedLightThanWhatItStartsFrom) {
-  const Truth points =
-      readReferencePoints(std::filesystem::path(UNSHOT_TEST_DATA) / "cornell_published.csv");
+  const Truth points = readReferencePoints(std::filesystem::path(UNSHOT_TEST_DATA) / "cornell_published.csv");
   const auto errorOf = [&](bool gather) {
     const auto solve = solved(publishedCornellBox(), coarselySeen(gather));
     EXPECT_EQ(solve->state(), SolveState::kConverged);
@@ -45,14 +44,14 @@ TEST(FinalGather, IsNearerToTracedLightThanWhatItStartsFrom) {
   EXPECT_LT(after, 0.7 * before);
 }
 
-// B = 1 solves B = E + rho H in a closed cube of E = 0.2, rho = 0.8, whatever the mesh. Begun after a few
-// shots, with a tenth of it: bounces bring the rest.
+// B = 1 solves B = E + rho H in a closed cube of E = 0.5, rho = 0.5, whatever the mesh. Begun with a third
+// of it unshot: bounces bring the rest.
 TEST(FinalGather, CarriesLightOnToTheEnd) {
   SolveOptions options = optionsOf("hemicube", 600, 0.01);
   options.hemicube_drawing = HemicubeDrawing::kRays;
   options.final_gather = true;
   options.error = 0.3;
-  const auto solve = solved(furnaceScene(0.8, 0.2), options);
+  const auto solve = solved(furnaceScene(0.5, 0.5), options);
   const Snapshot snapshot = solve->snapshot();
   double sum = 0, squares = 0;
   for (const glm::vec3& h : snapshot.irradiance) {
@@ -62,7 +61,8 @@ TEST(FinalGather, CarriesLightOnToTheEnd) {
   const auto n = static_cast<double>(snapshot.irradiance.size());
   measured("mean of H, 1 in truth", sum / n);
   measured("RMS error", std::sqrt(squares / n));
-  EXPECT_NEAR(sum / n, 1, 0.02) << "what the last bounce still changes is some times 0.4 %";
+  // The last bounce changes 0.4 % at most, and those that follow four times as much in all.
+  EXPECT_NEAR(sum / n, 1, 0.025);
   EXPECT_LT(std::sqrt(squares / n), 0.05);
 }
 
@@ -95,17 +95,21 @@ TEST(FinalGather, IsSavedWithTheSolve) {
 TEST(FinalGather, EndsWithinALimitOfTimeAndSaysWhereThatIsTooShort) {
   const auto within = [](double seconds) {
     SolveOptions options = coarselySeen(true);
-    options.error = 1e-9;
+    options.elements = 20'000;
+    options.hemicube_resolution = 256;
+    options.error = 1e-12;
     options.max_seconds = seconds;
-    return solved(publishedCornellBox(), options);
+    auto solve = begun(publishedCornellBox(), options);
+    while (solve->state() == SolveState::kRunning) solve->step();
+    return solve;
   };
   const auto saysSo = [](const Solve& solve) {
     return std::any_of(solve.diagnostics().begin(), solve.diagnostics().end(),
                        [](const Diagnostic& d) { return d.code == "not-gathered"; });
   };
-  const auto enough = within(5);
+  const auto enough = within(4);
   EXPECT_EQ(enough->stoppedBy(), "max_seconds");
-  EXPECT_LT(enough->measures().seconds, 6);
+  EXPECT_LT(enough->measures().seconds, 5);
   EXPECT_FALSE(saysSo(*enough));
   EXPECT_TRUE(saysSo(*within(1e-3)));
 }
@@ -113,17 +117,20 @@ TEST(FinalGather, EndsWithinALimitOfTimeAndSaysWhereThatIsTooShort) {
 // Forty lamps above a floor, of which half face away: their sum over many looks is the exact factors'.
 TEST(FinalGather, DrawsAmongManyLampsWithoutBias) {
   SceneBuilder b;
-  const auto grey = b.material("grey", glm::dvec3(0.5)), lamp = b.material("lamp", glm::dvec3(0.1), glm::dvec3(3));
+  const auto grey = b.material("grey", glm::dvec3(0.5)),
+             lamp = b.material("lamp", glm::dvec3(0.1), glm::dvec3(3));
   b.quad(grey, {0, 0, 0}, {0, 0, 8}, {8, 0, 0});
   double expected = 0;
   const glm::dvec3 eye{2.3, 0, 1.1};
   std::vector<glm::dvec3> scratch;
   for (int k = 0; k < 40; ++k) {
-    const glm::dvec3 at(0.2 * k, 0.3 + 0.1 * (k % 7), 0.15 * ((5 * k) % 40)), u(0.1, 0.02 * (k % 3), 0), v(0, 0, 0.1);
+    const glm::dvec3 at(0.2 * k, 0.3 + 0.1 * (k % 7), 0.15 * ((5 * k) % 40)), u(0.1, 0.02 * (k % 3), 0),
+        v(0, 0, 0.1);
     const bool down = k % 2 == 0;
     b.quad(lamp, at, down ? u : v, down ? v : u);
-    const glm::dvec3 ring[4] = {at, at + u, at + u + v, at + v};
-    if (down) expected += 3 * pointToPolygonFactor(eye, {0, 1, 0}, ring, scratch);
+    const glm::dvec3 &first = down ? u : v, &second = down ? v : u;
+    const glm::dvec3 ring[4] = {at, at + first, at + first + second, at + second};
+    expected += 3 * std::max(pointToPolygonFactor(eye, {0, 1, 0}, ring, scratch), 0.0);
   }
   MeshOptions options;
   options.emit_front_only = true;
@@ -131,9 +138,15 @@ TEST(FinalGather, DrawsAmongManyLampsWithoutBias) {
   const Gatherer gatherer(mesh);
   double sum = 0, squares = 0;
   constexpr int kLooks = 4'000;
+  double whole = 0;  // of a look at all of them
+  for (const Gather::Light& light :
+       gatherer.look(eye - mesh.frame_origin, {0, 1, 0}, 1, {.strata = 2, .emitters = 1'000}).lights)
+    whole += 3 * static_cast<double>(light.weight);
+  EXPECT_NEAR(whole, expected, 1e-4 * expected);
   for (int k = 0; k < kLooks; ++k) {
     double h = 0;
-    for (const Gather::Light& light : gatherer.look(eye - mesh.frame_origin, {0, 1, 0}, k, {.strata = 2}).lights)
+    for (const Gather::Light& light :
+         gatherer.look(eye - mesh.frame_origin, {0, 1, 0}, k, {.strata = 2}).lights)
       h += 3 * static_cast<double>(light.weight);
     sum += h;
     squares += h * h;

@@ -193,8 +193,9 @@ TEST(SmallScene, IsEstimatedAtThePlacesOfItsTrial) {
   const auto method = methodRow("closed-form");
   const Transport transport(makeMethod(method, mesh), makeReceivers(mesh, method.receivers), mesh.patch_area,
                             0);
-  std::vector<glm::dvec3> light(transport.receiverCount(), glm::dvec3(1.0));
-  light.front() = glm::dvec3(2.0);
+  MeshField light{std::vector<glm::vec3>(mesh.vertices.size(), glm::vec3(1.0f)),
+                  std::vector<glm::vec3>(mesh.element_count, glm::vec3(1.0f))};
+  light.vertices.front() = glm::vec3(2.0f);
   ResidualPlaces first(mesh, transport.receivers(), false, 1), at_once(mesh, transport.receivers(), false, 1),
       later(mesh, transport.receivers(), false, 1);
   ASSERT_TRUE(first.exact());

@@ -86,10 +86,11 @@ class Screen {
   pid_t pid_ = -1;
 };
 
-/// What `xdotool ARGUMENTS` prints, without the end of the line.
+/// What `xdotool ARGUMENTS` prints, without the end of the line; it waits for ever where the pointer cannot
+/// move.
 inline std::string xdotool(const std::string& arguments) {
   std::string output;
-  FILE* pipe = ::popen(("xdotool " + arguments + " 2>/dev/null").c_str(), "r");
+  FILE* pipe = ::popen(("timeout 30 xdotool " + arguments + " 2>/dev/null").c_str(), "r");
   if (!pipe) return "";
   char buffer[256];
   for (std::size_t n; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) output.append(buffer, n);
