@@ -45,7 +45,11 @@ void runSteps(Solve& solve, const InterruptFlag& interrupted, Progress& progress
     }
     solve.step(Solve::kMostAtOnce);
     const Measures& m = solve.measures();
-    progress.update({solve.progress(), m.unshot_fraction, m.solverBound(), m.shots, m.seconds - began});
+    if (solve.gathers()) {
+      progress.update(solve.progress(), "final gathering");
+    } else {
+      progress.update({solve.progress(), m.unshot_fraction, m.solverBound(), m.shots, m.seconds - began});
+    }
     if (const std::optional<Error> failed = saver.offer(solve)) {
       std::cerr << "unshot: " << failed->fullText() << "\n  the solve goes on, and is saved again later"
                 << std::endl;

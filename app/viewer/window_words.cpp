@@ -39,6 +39,7 @@ constexpr std::array kWords = {
     Words{"--fov 40", "the action fov 40"},
     Words{"--error 0.01", "the action error 0.01"},
     Words{"a smaller --error", "a smaller error at \"Stop at\" in the section Solve"},
+    Words{"--max-seconds ", "a limit, when the program is started, of so many seconds: "},
     Words{"--mode gmres", "Iteration: GMRES, in the section Solve"},
     Words{"a --sky", "a Sky in the section Scene"},
     Words{"W/m^2", "W/m\u00b2"}};

@@ -183,7 +183,7 @@ void FinalGather::finish() {
 }
 
 void FinalGather::forget() {
-  stage_ = Stage::kRest;
+  abandon();
   light_ = nullptr;
 }
 

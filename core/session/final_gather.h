@@ -54,6 +54,9 @@ class FinalGather {
   /// What the last one that has ended came to; null before.
   const std::shared_ptr<const GatheredLight>& light() const { return light_; }
   void restore(std::shared_ptr<const GatheredLight> light) { light_ = std::move(light); }
+  /// The one under way, if there is one, comes to nothing.
+  void abandon() { stage_ = Stage::kRest; }
+  /// As if there had been none.
   void forget();
 
  private:

@@ -383,6 +383,7 @@ void Solve::setError(double error) {
   Impl& s = *impl_;
   s.options.error = error;
   s.finished_by.reset();
+  if (s.final_gather) s.final_gather->abandon();
   if (s.stopped_by == "no light") return;
   if (s.progress_state == SolveState::kConverged) {
     s.stop(SolveState::kRunning, {});
@@ -425,7 +426,9 @@ void Solve::forgetPlaces() { impl_->budget->forgetPlaces(); }
 void Solve::rest() { impl_->resting = true; }
 
 void Solve::interrupt() {
-  if (impl_->progress_state == SolveState::kRunning) impl_->stop(SolveState::kInterrupted, "interrupted");
+  if (impl_->progress_state != SolveState::kRunning) return;
+  if (impl_->final_gather) impl_->final_gather->finish();
+  impl_->stop(SolveState::kInterrupted, "interrupted");
 }
 
 }  // namespace unshot

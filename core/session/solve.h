@@ -158,8 +158,10 @@ class Solve {
   /// A copy of the present state for display and export.
   Snapshot snapshot() const;
   const Measures& measures() const;
-  /// Fraction of the work done, from the unshot fraction on a log scale: 0 at the start, 1 converged.
+  /// Fraction of the work done, from the unshot fraction on a log scale: 0 at the start, 1 converged. While
+  /// final gathering is under way, of that.
   double progress() const;
+  bool gathers() const;  ///< whether it is
   /// What the mode does besides shooting, such as "factorising"; empty: nothing, or it has ended.
   std::string activity() const;
 

@@ -47,6 +47,7 @@ const Measures& Solve::measures() const { return impl_->measures; }
 double Solve::progress() const {
   const Impl& s = *impl_;
   if (s.progress_state == SolveState::kConverged) return 1;
+  if (gathers()) return s.final_gather->progress();
   if (!std::isfinite(s.measures.unshot_fraction)) return 0;
   // Until there is a bound, what is unshot says how far it is.
   const double bound = s.measures.solverBound(), left = bound < kNoBound ? bound : s.measures.unshot_fraction;
@@ -54,10 +55,12 @@ double Solve::progress() const {
   return std::clamp(reached, 0.0, 0.999);
 }
 
+bool Solve::gathers() const { return impl_->final_gather && impl_->final_gather->running(); }
+
 std::string Solve::activity() const {
   const Impl& s = *impl_;
   if (s.progress_state != SolveState::kRunning) return {};
-  if (s.finished_by && s.final_gather && s.final_gather->running()) return "gathering";
+  if (gathers()) return "gathering";
   return s.mode ? s.mode->activity() : std::string();
 }
 
