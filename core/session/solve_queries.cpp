@@ -32,6 +32,8 @@ Snapshot Solve::snapshot() const {
     const std::shared_ptr<const GatheredLight>& light = s.final_gather->light();
     out.direct = {light, &light->direct.vertices};
     out.element_direct = {light, &light->direct.elements};
+    // What was unshot has gone on in it to its end.
+    std::fill(out.ambient.begin(), out.ambient.end(), glm::vec3(0.0f));
   }
   out.bounce_light = s.bounces_of_light->light();
   if (!out.bounce_light && s.mode) {

@@ -112,6 +112,9 @@ TEST(FinalGather, EndsWithinALimitOfTimeAndSaysWhereThatIsTooShort) {
   EXPECT_LT(enough->measures().seconds, 5);
   EXPECT_FALSE(saysSo(*enough));
   EXPECT_TRUE(saysSo(*within(1e-3)));
+  // It has brought what is still unshot, which must not be counted again.
+  EXPECT_GT(enough->measures().unshot_fraction, 0);
+  for (const glm::vec3& h : enough->snapshot().ambient) ASSERT_EQ(h, glm::vec3(0.0f));
 }
 
 // Forty lamps above a floor, of which half face away: their sum over many looks is the exact factors'.
