@@ -101,7 +101,7 @@ void SolverArguments::addPlan(Command& command) {
                 }
                 return {};
               });
-  command.flag("--do-all", do_all_, "Do all of it");
+  command.flag("--do-all", do_all_, "Do all of it but shooters");
   command.exclude("--do", "--do-all");
 }
 

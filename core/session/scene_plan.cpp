@@ -123,8 +123,8 @@ bool leavesOut(const DoAnyway& done, std::string_view key) {
 }
 
 bool doesAll(const DoAnyway& done) {
-  return std::none_of(std::begin(kRows), std::end(kRows),
-                      [&](const PlanRow& row) { return leavesOut(done, row.info.key); });
+  const DoAnyway all = doAll();
+  return std::none_of(all.begin(), all.end(), [&](const std::string& key) { return leavesOut(done, key); });
 }
 
 std::vector<PlanDecision> makePlan(const PlannedSolve& solve) {

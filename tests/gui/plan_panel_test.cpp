@@ -104,6 +104,7 @@ TEST(PlanPanel, EverythingIsSwitchedAtOnce) {
   std::vector<PlanLine> lines = planLines(*live->state().facts);
   std::erase_if(lines, [](const PlanLine& line) { return line.key == "shooters"; });
   EXPECT_EQ(lines.size(), doAll().size()) << "each can be switched back";
+  EXPECT_TRUE(doesAll(live->ui().options.do_anyway)) << "the switch shows it";
   for (const PlanLine& line : lines) EXPECT_THAT(line.title, StartsWith("done all the same: "));
   live->perform("do-all", "off");
   ASSERT_TRUE(solvedAnew(live, epoch + 1));

@@ -70,7 +70,8 @@ void planSection(Viewer& viewer) {
   for (const PlanLine& line : lines) planLine(viewer, line);
   planSwitch(viewer, "Do everything all the same", "do-all", "", doesAll(viewer.ui().options.do_anyway));
   tooltip(
-      "Solves again from the start, with all that a plan could leave out, or without. On the command line: "
+      "Solves again from the start, with all that a plan could leave out but shooters, or without. On the "
+      "command line: "
       "--do-all");
 }
 
