@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <utility>
 
@@ -11,6 +12,9 @@ namespace unshot {
 /// Thrown by work that was given up. Nobody's error, so no std::exception: whoever raised the flag catches
 /// it.
 struct Cancelled {};
+
+/// Items of a loop between two words on how much of it is done.
+inline constexpr std::uint32_t kToldEvery = 1024;
 
 /// By default work that runs to its end, and tells nobody how far it is. Copies look at the same flag and
 /// tell the same `told`, which outlive them.

@@ -10,7 +10,7 @@
 namespace unshot {
 namespace {
 
-[[noreturn]] void fail(const std::string& where, const std::string& message, const std::string& advice) {
+[[noreturn]] void failAt(const std::string& where, const std::string& message, const std::string& advice) {
   throw Error(ErrorKind::kInput, message, where, advice);
 }
 
@@ -38,8 +38,8 @@ std::optional<double> CsvTable::number(std::size_t row, std::size_t column) cons
   if (cell.empty()) return std::nullopt;
   const std::optional<double> value = parseNumber(cell);
   if (!value)
-    fail(where(row), "'" + cell + "' is not a number",
-         "a decimal number in column " + std::to_string(column + 1));
+    failAt(where(row), "'" + cell + "' is not a number",
+           "a decimal number in column " + std::to_string(column + 1));
   return value;
 }
 
@@ -48,7 +48,7 @@ std::string CsvTable::where(std::size_t row) const { return placeOf(path, lines[
 CsvTable readCsv(const std::filesystem::path& path) {
   const std::string bytes = readFile(path);
   if (bytes.find('\0') != std::string::npos)
-    fail(path.string(), "this is not a text file", "comma-separated values");
+    failAt(path.string(), "this is not a text file", "comma-separated values");
   CsvTable table;
   table.path = path;
   std::size_t columns = 0;
@@ -70,10 +70,10 @@ CsvTable readCsv(const std::filesystem::path& path) {
       }
     }
     if (cells.size() != columns) {
-      fail(placeOf(path, line_number),
-           "there are " + std::to_string(cells.size()) + " values where " + std::to_string(columns) +
-               " were expected",
-           "the same number of values in every line");
+      failAt(placeOf(path, line_number),
+             "there are " + std::to_string(cells.size()) + " values where " + std::to_string(columns) +
+                 " were expected",
+             "the same number of values in every line");
     }
     table.rows.emplace_back(cells.begin(), cells.end());
     table.lines.push_back(line_number);

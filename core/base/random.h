@@ -16,4 +16,17 @@ inline std::uint64_t mixBits(std::uint64_t x) {
 /// Uniform in [0, 1).
 inline double unitInterval(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
 
+/// One number after the other, the same from the same start.
+class RandomStream {
+ public:
+  explicit RandomStream(std::uint64_t start) : state_(start) {}
+  double next() {
+    state_ += 0x9e3779b97f4a7c15ull;
+    return unitInterval(mixBits(state_));
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
 }  // namespace unshot

@@ -30,6 +30,10 @@ std::string countText(std::uint64_t count) {
   return text;
 }
 
+std::string roundedCountText(double count) {
+  return countText(static_cast<std::uint64_t>(std::llround(count)));
+}
+
 std::string figureText(double value) {
   const double size = std::abs(value);
   if (size == 0) return "0";

@@ -9,6 +9,8 @@ namespace unshot {
 
 /// 1234567 as "1,234,567".
 std::string countText(std::uint64_t count);
+/// To the nearest count.
+std::string roundedCountText(double count);
 /// 3 significant digits, without an exponent where that is readable: "0.0123", "45.6", "1.2e-08".
 std::string figureText(double value);
 /// Nine significant digits, for what is pasted elsewhere.

@@ -5,14 +5,13 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "base/cancel.h"
 #include "base/csv_table.h"
 #include "base/error.h"
 #include "rays/nearest_triangle.h"
 
 namespace unshot {
 namespace {
-
-constexpr std::size_t kTold = 1024;  // probes between two words on how many are answered
 
 constexpr double kLeastCosine = 0.5;       // between the normals of probe and side
 constexpr double kReachOfDiagonal = 2e-3;  // a face that is not planar may be split along another diagonal
@@ -96,7 +95,7 @@ std::vector<std::optional<ProbePlace>> placesOn(const Target& target, double rea
   std::vector<std::optional<ProbePlace>> places(probes.size());
   for (std::size_t k = 0; k < probes.size(); ++k) {
     cancel.check();
-    if (k % kTold == 0) cancel.report(static_cast<double>(k) / static_cast<double>(probes.size()));
+    if (k % kToldEvery == 0) cancel.report(static_cast<double>(k) / static_cast<double>(probes.size()));
     const glm::vec3 normal(glm::normalize(probes[k].normal));
     const auto faces = [&](std::uint32_t triangle) {
       return glm::dot(target.normals[triangle], normal) >= static_cast<float>(kLeastCosine);

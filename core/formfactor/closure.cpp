@@ -17,7 +17,7 @@ constexpr float kSame = 0.999f;
 // Share of its view from which what a refined vertex sees by itself is scaled by itself.
 constexpr double kGoodPart = 0.1;
 // Of a patch; single precision holds no more. And rounds that take it there.
-constexpr double kClosed = 1e-9;
+constexpr double kClosedRow = 1e-9;
 constexpr int kMostRounds = 100;
 
 // What emitters reflect, of what the scene absorbs, from which their columns are scaled too.
@@ -121,7 +121,7 @@ void closePatches(std::size_t patch_count, const Receivers& receivers, const Row
         f = std::clamp(f + (wanted[p] - has) / room, 0.0, kMostScale);
       }
     }
-    if (worst < kClosed) break;
+    if (worst < kClosedRow) break;
   }
   std::copy(factor.begin() + receivers.base_first, factor.end(), scale.begin() + receivers.base_first);
 }

@@ -27,12 +27,12 @@
 namespace unshot {
 namespace {
 
-constexpr std::uint32_t kResolution = 64, kEmitterFactor = 2, kFinestEmitterResolution = 1024;
+constexpr std::uint32_t kBufferResolution = 64, kEmitterFactor = 2, kFinestEmitterResolution = 1024;
 // Radius of a patch over its distance, above which it takes four hemicubes: a square's from the middles of
 // its sides is just below.
-constexpr double kWide = 1.45;
+constexpr double kWideForHemicube = 1.45;
 // Hemicubes of a level: 1, 4, 16.
-constexpr std::size_t kLevels = 3;
+constexpr std::size_t kHemicubeLevels = 3;
 
 class HemicubeSight final : public Visibility {
  public:
@@ -43,14 +43,14 @@ class HemicubeSight final : public Visibility {
         emitters_(mesh_),
         chosen_(chooseHemicubeView(setup)),
         seed_(setup.seed) {
-    resolution_ = setup.hemicube_resolution != 0 ? setup.hemicube_resolution : kResolution;
+    resolution_ = setup.hemicube_resolution != 0 ? setup.hemicube_resolution : kBufferResolution;
   }
 
   double seen(const ReceiverView& from, std::uint32_t q) override {
     begin(q);
     if (emits(q)) return share(from, q, 2);
     const double distance = glm::length(polygons_->middle(q) - from.position);
-    return share(from, q, polygons_->radius(q) > kWide * distance ? 1 : 0);
+    return share(from, q, polygons_->radius(q) > kWideForHemicube * distance ? 1 : 0);
   }
 
   double escaping(std::uint32_t q) override {
@@ -203,7 +203,7 @@ class HemicubeSight final : public Visibility {
   std::uint64_t seed_;
   std::uint32_t resolution_ = 0;
   std::uint32_t patch_ = kNone;  // that the pictures are of
-  std::array<std::vector<Picture>, kLevels> pictures_;
+  std::array<std::vector<Picture>, kHemicubeLevels> pictures_;
   std::vector<glm::dvec3> points_;
   std::vector<double> delta_;  // of the last layout that was asked for
   std::uint64_t drawn_ = 0;

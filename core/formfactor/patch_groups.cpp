@@ -11,7 +11,7 @@
 namespace unshot {
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kNoPlace = std::numeric_limits<double>::infinity();
 
 // For each node of a patch the topmost node around it that holds at most `most` of them.
 void climb(const Mesh& mesh, std::uint32_t index, std::uint32_t most,
@@ -69,7 +69,7 @@ Region PatchGroups::region(std::uint32_t group) const {
   }
   // The middle of them all may be none of theirs (a hole, another room); the middle of the nearest is.
   const glm::dvec2 middle = moment / area;
-  double nearest = kFar;
+  double nearest = kNoPlace;
   Region out;
   for (const Region& part : parts) {
     const glm::dvec2 off = part.sample - middle;

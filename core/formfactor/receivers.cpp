@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/cross.h"
 #include "mesh/patch_lattice.h"
 
 namespace unshot {
@@ -17,9 +18,9 @@ namespace {
 // within a hair's breadth: a vertex stands for what lies around it, so it looks from a tenth of the way into
 // its triangles. Less is nearer to the value on the edge itself, but worse as a corner of the interpolation:
 // on the Cornell box of 600 to 10,000 elements a thousandth gives 5.7 to 0.95 % nRMSE, a tenth 4.7 to 0.91 %.
-constexpr double kInset = 0.1;
+constexpr double kCornerInset = 0.1;
 // Of the angles around a vertex: two pi but for rounding.
-constexpr double kClosed = 2 * std::numbers::pi - 1e-3;
+constexpr double kClosedFan = 2 * std::numbers::pi - 1e-3;
 
 void elementReceivers(const Mesh& mesh, Receivers& out, const CancelToken& cancel) {
   for (std::uint32_t e = 0; e < mesh.element_count; ++e) {
@@ -62,8 +63,6 @@ struct Corner {
   glm::dvec2 inwards() const { return (next + last - 2.0 * at) / 3.0; }  // to the triangle's centroid
 };
 
-double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
-
 // Whether `inwards` points from the vertex into the triangle.
 bool pointsInto(const Corner& c, const glm::dvec2& inwards) {
   const double turn = cross(c.next - c.at, c.last - c.at) > 0 ? 1 : -1;
@@ -83,7 +82,7 @@ glm::dvec2 intoTriangles(std::span<const Corner> corners) {
     sum += c.area * c.inwards();
     if (c.area > largest->area) largest = &c;
   }
-  if (area <= 0 || angle > kClosed) return glm::dvec2(0.0);
+  if (area <= 0 || angle > kClosedFan) return glm::dvec2(0.0);
   const glm::dvec2 mean = sum / area;
   const bool inside = std::any_of(corners.begin(), corners.end(),
                                   [&](const Corner& c) { return c.area > 0 && pointsInto(c, mean); });
@@ -144,7 +143,7 @@ void viewsOfVertices(const Mesh& mesh, std::vector<Corner> corners, Receivers& o
         std::accumulate(first, end, 0.0, [](double sum, const Corner& c) { return sum + c.area; });
     const double whole = out.area[first->vertex] * 3;
     const Side& side = mesh.sides[first->side];
-    const glm::dvec2 at = first->at + kInset * intoTriangles({first, end});
+    const glm::dvec2 at = first->at + kCornerInset * intoTriangles({first, end});
     views.add(mesh, {mesh.surfaces[side.surface].point(at), side.normal, whole > 0 ? area / whole : 1,
                      first->side, first->patch});
     if (end == corners.end() || end->vertex != first->vertex)

@@ -179,15 +179,15 @@ class EglProviderContext final : public Context {
   EGLContext context_ = EGL_NO_CONTEXT;
 };
 
-std::string unavailable() {
+std::string eglProblem() {
   if (!egl().library.problem().empty()) return egl().library.problem();
   if (routes().empty())
     return "libEGL knows neither EGL_EXT_platform_device nor EGL_MESA_platform_surfaceless";
   return {};
 }
 
-std::unique_ptr<Context> create(bool hardware_only) {
-  const std::string problem = unavailable();
+std::unique_ptr<Context> createEgl(bool hardware_only) {
+  const std::string problem = eglProblem();
   if (!problem.empty()) throw Error(ErrorKind::kEnvironment, problem);
   std::string first_failure = "EGL: no GPU";
   bool failed = false;
@@ -208,8 +208,8 @@ std::unique_ptr<Context> create(bool hardware_only) {
 
 Provider eglProvider() {
   return {{"egl", "EGL", "a GPU without a display, or Mesa's software renderer"},
-          create,
-          unavailable,
+          createEgl,
+          eglProblem,
           "libegl1 libgl1-mesa-dri"};
 }
 

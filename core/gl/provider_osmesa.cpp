@@ -76,11 +76,11 @@ class OsmesaProviderContext final : public Context {
   OsmesaContext context_ = nullptr;
 };
 
-std::string unavailable() { return osmesa().library.problem(); }
+std::string osmesaProblem() { return osmesa().library.problem(); }
 
-std::unique_ptr<Context> create(bool hardware_only) {
+std::unique_ptr<Context> createOsmesa(bool hardware_only) {
   if (hardware_only) throw Error(ErrorKind::kEnvironment, "OSMesa draws in software");
-  const std::string problem = unavailable();
+  const std::string problem = osmesaProblem();
   if (!problem.empty()) throw Error(ErrorKind::kEnvironment, problem);
   return std::make_unique<OsmesaProviderContext>();
 }
@@ -89,8 +89,8 @@ std::unique_ptr<Context> create(bool hardware_only) {
 
 Provider osmesaProvider() {
   return {{"osmesa", "OSMesa", "Mesa's software renderer; needs neither a display nor a GPU"},
-          create,
-          unavailable,
+          createOsmesa,
+          osmesaProblem,
           "libosmesa6"};
 }
 

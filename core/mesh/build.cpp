@@ -174,8 +174,6 @@ bool isSmallLamp(const Mesh& mesh, const Surface& s) {
          std::max(s.extent.x, s.extent.y) <= longest && s.area >= kRectangle * s.extent.x * s.extent.y;
 }
 
-using Contacts = std::vector<std::vector<ContactSegment>>;
-
 void gridAll(Mesh& mesh, const std::vector<double>& sizes, bool paired, const Contacts& contacts,
              double tolerance, const CancelToken& cancel) {
   mesh.cells.clear();

@@ -4,10 +4,10 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "base/cross.h"
+
 namespace unshot {
 namespace {
-
-double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
 // Where edge p-q meets the line; computed the same way from either end, so that neighbours agree to the last
 // bit.

@@ -7,15 +7,13 @@
 #include <optional>
 
 #include "base/box_tree.h"
+#include "base/cancel.h"
+#include "base/cross.h"
 #include "mesh/clip.h"
 #include "mesh/lit.h"
 
 namespace unshot {
 namespace {
-
-constexpr std::uint32_t kTold = 1024;  // items between two words on how much is done
-
-double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
 // The part of the line a + t d (|d| = 1) inside a convex polygon: t in [first, second]; empty where first >=
 // second.
@@ -102,8 +100,6 @@ bool isCovered(const glm::dvec2& a, const glm::dvec2& b, const std::vector<const
 // Farther off, what one element sees past an edge differs little from what the next one sees.
 constexpr double kLarge = 2, kJustAbove = 0.25;
 
-using Contacts = std::vector<std::vector<ContactSegment>>;
-
 // The part of the segment in the triangle (counter-clockwise); nothing where it is no longer than twice
 // `distance`.
 std::optional<ContactSegment> partInside(const ContactSegment& s, const ChartTriangle& t, double distance) {
@@ -131,8 +127,8 @@ bool isOnOutline(const ContactSegment& s, const ChartTriangle& t, double distanc
 }
 
 // Where a triangle passes through the surface's plane; nothing where it only reaches it.
-std::optional<ContactSegment> crossing(const Surface& surface, const std::array<glm::dvec3, 3>& corners,
-                                       double distance) {
+std::optional<ContactSegment> crossingOf(const Surface& surface, const std::array<glm::dvec3, 3>& corners,
+                                         double distance) {
   double height[3], low = 0, high = 0;
   for (int k = 0; k < 3; ++k) {
     height[k] = glm::dot(corners[k] - surface.origin, surface.normal);
@@ -186,7 +182,8 @@ std::vector<Touch> edgesNear(const Mesh& mesh, const std::vector<SurfaceEdge>& e
   std::vector<Touch> out;
   for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
     cancel.check();
-    if (s % kTold == 0) cancel.report(static_cast<double>(s) / static_cast<double>(mesh.surfaces.size()));
+    if (s % kToldEvery == 0)
+      cancel.report(static_cast<double>(s) / static_cast<double>(mesh.surfaces.size()));
     const Surface& surface = mesh.surfaces[s];
     if (!counts(surface)) continue;
     const double reach = reachOf(surface);
@@ -237,11 +234,12 @@ std::vector<Crossing> findCrossings(const Mesh& mesh, double distance, const Can
   const BoxTree tree(boxes, cancel);
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     cancel.check();
-    if (t % kTold == 0) cancel.report(static_cast<double>(t) / static_cast<double>(mesh.triangles.size()));
+    if (t % kToldEvery == 0)
+      cancel.report(static_cast<double>(t) / static_cast<double>(mesh.triangles.size()));
     const Surface& surface = mesh.surfaces[owner[t]];
     tree.overlapping(boxes[t], [&](std::uint32_t other) {
       if (owner[other] == owner[t]) return;
-      const auto line = crossing(surface, cornersOf(other), distance);
+      const auto line = crossingOf(surface, cornersOf(other), distance);
       const auto inside = line ? partInside(*line, mesh.triangles[t], distance) : std::nullopt;
       if (inside)
         out.push_back({owner[t], owner[other], *inside, isOnOutline(*inside, mesh.triangles[t], distance)});

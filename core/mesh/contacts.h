@@ -40,12 +40,14 @@ struct Touch {
 std::vector<Touch> findTouches(const Mesh& mesh, const std::vector<SurfaceEdge>& edges, double distance,
                                const CancelToken& cancel = {});
 
+using Contacts = std::vector<std::vector<ContactSegment>>;  // of each surface
+
 /// Contact segments of each lit surface with lit ones, `crossings` among them. `size` [m]: edge of an element
 /// as far as it is known; long edges that come nearer than a quarter of it to a large surface's plane count
 /// as well.
-std::vector<std::vector<ContactSegment>> findContacts(const Mesh& mesh, const std::vector<SurfaceEdge>& edges,
-                                                      std::span<const Crossing> crossings, double distance,
-                                                      double size, const CancelToken& cancel = {});
+Contacts findContacts(const Mesh& mesh, const std::vector<SurfaceEdge>& edges,
+                      std::span<const Crossing> crossings, double distance, double size,
+                      const CancelToken& cancel = {});
 
 /// Cuts the convex polygons of one cell by the lines of those segments that pass through it, and marks every
 /// edge that lies on a segment as outline. `tolerance` [m].

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/cross.h"
+
 namespace unshot {
 namespace {
-
-double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
 class PartFinder {
  public:

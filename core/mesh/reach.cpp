@@ -7,12 +7,11 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/cancel.h"
 #include "mesh/shells.h"
 
 namespace unshot {
 namespace {
-
-constexpr std::uint32_t kTold = 1024;  // items between two words on how much is done
 
 // A point off a side is so many weld distances away: beyond what counts as lying in its plane. A second one,
 // nearer, tells what stands between.
@@ -110,7 +109,7 @@ class Reach {
     }
     for (std::uint32_t side = 0; side < lit_.size(); ++side) {
       cancel.check();
-      if (side % kTold == 0) cancel.report(static_cast<double>(side) / static_cast<double>(lit_.size()));
+      if (side % kToldEvery == 0) cancel.report(static_cast<double>(side) / static_cast<double>(lit_.size()));
       lit_[side] = emits[side] || seesLight(side);
       shell_lit_[shells_.of(side)] |= lit_[side];
     }

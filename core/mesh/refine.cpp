@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "base/cross.h"
 #include "mesh/display.h"
 #include "mesh/grid.h"
 #include "mesh/numbering.h"
@@ -199,8 +200,6 @@ class Refiner {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> patch_;
   std::vector<ConvexPolygon> asked_;
 };
-
-double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
 // Of each of `count` keys, the indices k with key(k) equal to it.
 struct Buckets {

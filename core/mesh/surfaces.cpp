@@ -6,12 +6,11 @@
 #include <set>
 #include <span>
 
+#include "base/cancel.h"
 #include "scene/triangulate.h"
 
 namespace unshot {
 namespace {
-
-constexpr std::uint32_t kTold = 1024;  // items between two words on how much is done
 
 constexpr double kSmoothCosine = 0.8660254037844387;  // 30 degrees
 // Areas and lengths that differ by no more are equal; edges run along an axis within a degree.
@@ -59,7 +58,7 @@ class SurfaceMaker {
     cancel_.check();
     mesh_.positions = welded_.positions;
     for (std::uint32_t p = 0; p < scene_.polygons.size(); ++p) {
-      if (p % kTold == 0)
+      if (p % kToldEvery == 0)
         cancel_.report(static_cast<double>(p) / static_cast<double>(scene_.polygons.size()));
       if (surface_of_[p] == kNone && planes_[p].area > 0) growSurface(p);
     }

@@ -5,13 +5,13 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "base/cancel.h"
 #include "base/point_tree.h"
 
 namespace unshot {
 namespace {
 
-constexpr std::uint32_t kTold = 1024;  // items between two words on how much is done
-constexpr double kMergedShare = 0.3;   // of the time that a scene takes
+constexpr double kMergedShare = 0.3;  // of the time that a scene takes
 
 // Points hashed by cells of twice the merging distance, so that what lies within the distance of a point is
 // in the cells that its box touches: mostly one, at most eight.
@@ -87,7 +87,7 @@ std::vector<std::uint32_t> mergePoints(std::span<const glm::dvec3> points, doubl
   PointHash hash(points, distance);
   for (std::uint32_t k = 0; k < points.size(); ++k) {
     cancel.check();
-    if (k % kTold == 0) cancel.report(static_cast<double>(k) / static_cast<double>(points.size()));
+    if (k % kToldEvery == 0) cancel.report(static_cast<double>(k) / static_cast<double>(points.size()));
     representative[k] = hash.findOrAdd(k);
   }
   return representative;
@@ -114,7 +114,7 @@ WeldedScene weld(const Scene& scene, const CancelToken& cancel) {
   const CancelToken rings = cancel.part(kMergedShare, 1);
   for (const Polygon& polygon : scene.polygons) {
     cancel.check();
-    if (out.start.size() % kTold == 0)
+    if (out.start.size() % kToldEvery == 0)
       rings.report(static_cast<double>(out.start.size()) / static_cast<double>(scene.polygons.size()));
     ring.clear();
     for (std::uint32_t k = 0; k < polygon.corner_count; ++k) {

@@ -8,7 +8,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json numberOrNull(std::optional<double> value) {
+Json figureOrNull(std::optional<double> value) {
   return value && *value < kNoBound ? Json(*value) : Json(nullptr);
 }
 
@@ -23,12 +23,12 @@ Json jsonOf(const CurvePoint& p) {
           {"cpu_seconds_max", p.cpu_seconds_max},
           {"seconds", p.seconds},
           {"unshot_fraction", p.unshot_fraction},
-          {"solver_error", numberOrNull(solverErrorOf(p))},
-          {"solver_lower", numberOrNull(p.bounds.lower)},
-          {"solver_upper", numberOrNull(p.bounds.upper)},
-          {"solver_total_error", numberOrNull(solverTotalErrorOf(p))},
-          {"solver_total_upper", numberOrNull(p.bounds.total_upper)},
-          {"total_error", numberOrNull(p.total_error)}};
+          {"solver_error", figureOrNull(solverErrorOf(p))},
+          {"solver_lower", figureOrNull(p.bounds.lower)},
+          {"solver_upper", figureOrNull(p.bounds.upper)},
+          {"solver_total_error", figureOrNull(solverTotalErrorOf(p))},
+          {"solver_total_upper", figureOrNull(p.bounds.total_upper)},
+          {"total_error", figureOrNull(p.total_error)}};
 }
 
 Json reachedBy(const ModeCurve& curve, const CurveRecord& record) {
@@ -36,7 +36,7 @@ Json reachedBy(const ModeCurve& curve, const CurveRecord& record) {
   for (const ErrorMeasure& error : measuresOf(record)) {
     for (const double level : kErrorLevels) {
       const auto cost = [&](const PointQuantity& of) {
-        return numberOrNull(costToReach(curve.points, level, error.of, of));
+        return figureOrNull(costToReach(curve.points, level, error.of, of));
       };
       out.push_back({{"error", error.key},
                      {"level", level},
@@ -67,8 +67,8 @@ Json jsonOf(const ModeCurve& curve, const CurveRecord& record) {
 Json jsonOf(const std::optional<ReferenceRecord>& reference) {
   if (!reference) return nullptr;
   return {{"points", reference->points},
-          {"noise", numberOrNull(reference->noise)},
-          {"median_noise", numberOrNull(reference->median_noise)},
+          {"noise", figureOrNull(reference->noise)},
+          {"median_noise", figureOrNull(reference->median_noise)},
           {"seconds", reference->seconds},
           {"from_file", reference->from_file},
           {"file", reference->file}};

@@ -51,8 +51,8 @@ std::string styleOf(std::string_view mode, const char* with, double width, const
          figureText(width) + " dt " + dash;
 }
 
-std::string headOf(const CurvePlot& plot, const CurveRecord& record, const Axis& x,
-                   const std::string& y_label) {
+std::string plotHead(const CurvePlot& plot, const CurveRecord& record, const Axis& x,
+                     const std::string& y_label) {
   const std::string low = figureText(100 * record.options.error / 2);
   return "# " + plot.title + ". In this folder: gnuplot " + plot.name +
          ".gp\n"
@@ -109,7 +109,7 @@ CurvePlot errorPlot(const CurveRecord& record, const std::string& name, const st
                     std::to_string(kMarks[row % kMarks.size()]) + " ps 0.8 pi 9 title " + quoted(curve.mode));
   }
   if (any_bound) lines.push_back("NaN with lines lc rgb '#666666' lw 0.8 dt 2 title 'its upper bound'");
-  plot.script = headOf(plot, record, x, "error of the reflected light") + tailOf(lines);
+  plot.script = plotHead(plot, record, x, "error of the reflected light") + tailOf(lines);
   return plot;
 }
 
@@ -160,7 +160,7 @@ CurvePlot boundsPlot(const CurveRecord& record, const ModeCurve& first) {
   if (record.hasExact()) lines.push_back(line("solver_error", red + "lw 2.5 dt 1", "RMS, true"));
   lines.push_back(line("solver_upper", red + "lw 1.2 dt 2", "RMS, upper bound"));
   lines.push_back(line("solver_lower", red + "lw 1.2 dt 3", "RMS, lower bound"));
-  plot.script = headOf(plot, record, kTime, "error of the reflected light") + tailOf(lines);
+  plot.script = plotHead(plot, record, kTime, "error of the reflected light") + tailOf(lines);
   return plot;
 }
 

@@ -129,11 +129,9 @@ struct CostCells {
   }
 };
 
-std::string rowsText(double rows) { return countText(static_cast<std::uint64_t>(rows + 0.5)); }
-
 std::string costTable(const CurveRecord& record, const ErrorMeasure& error) {
   const CostCells seconds{record, error, busySecondsOf, durationText, true};
-  const CostCells rows{record, error, rowsOf, rowsText, false};
+  const CostCells rows{record, error, rowsOf, roundedCountText, false};
   std::string levels;
   for (const double level : kErrorLevels) levels += "<th>" + percentText(level) + "</th>";
   std::string out = "<h3>Time and rows until the " + std::string(error.title) +

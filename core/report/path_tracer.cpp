@@ -34,18 +34,6 @@ double powerHeuristic(double own, double other) {
   return 1 / (1 + ratio * ratio);
 }
 
-class RandomStream {
- public:
-  explicit RandomStream(std::uint64_t start) : state_(start) {}
-  double next() {
-    state_ += 0x9e3779b97f4a7c15ull;
-    return unitInterval(mixBits(state_));
-  }
-
- private:
-  std::uint64_t state_;
-};
-
 using Shuffle = std::array<std::uint8_t, kPathsPerBatch>;
 
 Shuffle shuffled(RandomStream& random) {

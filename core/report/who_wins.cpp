@@ -29,8 +29,6 @@ std::vector<Entry> ranking(const CurveRecord& record, double level, const PointQ
   return out;
 }
 
-std::string rowsText(double rows) { return countText(static_cast<std::uint64_t>(std::llround(rows))); }
-
 /// "southwell", "southwell and overshoot": those as good as the first.
 std::string leaders(const std::vector<Entry>& ranked) {
   std::string text;
@@ -48,11 +46,13 @@ std::string perRow(const CurveRecord& record, double level) {
   if (ranked.empty()) return "No mode came down to " + percentText(level) + ".";
   const Entry &first = ranked.front(), &last = ranked.back();
   if (last.cost <= (1 + kSame) * first.cost) {
-    return "Per row, to " + percentText(level) + ": all take about the same, " + rowsText(first.rows) +
+    return "Per row, to " + percentText(level) + ": all take about the same, " +
+           roundedCountText(first.rows) +
            " rows. Where light that matters leaves from nearly every patch, no choice of order saves rows.";
   }
   return "Per row, to " + percentText(level) + ": " + leaders(ranked) + " first, with " +
-         rowsText(first.rows) + " rows; " + last.curve->mode + " takes " + rowsText(last.rows) + ". " +
+         roundedCountText(first.rows) + " rows; " + last.curve->mode + " takes " +
+         roundedCountText(last.rows) + ". " +
          (first.curve->mode == "southwell" || first.curve->mode == "kept-first" ||
                   first.curve->mode == "overshoot"
               ? "It asks for a row only when much light waits to be shot along it; modes that sweep ask for "
@@ -70,11 +70,11 @@ std::string perSecond(const CurveRecord& record, double level) {
   double rows_of_all = 0;
   for (const Entry& entry : ranked) rows_of_all = std::max(rows_of_all, entry.rows);
   if (first.rows < (1 - kSame) * rows_of_all) {
-    text +=
-        "It saves form factors: " + rowsText(first.rows) + " rows in place of " + rowsText(rows_of_all) + ".";
+    text += "It saves form factors: " + roundedCountText(first.rows) + " rows in place of " +
+            roundedCountText(rows_of_all) + ".";
   } else if (last.shots > 1.5 * first.shots) {
     text += "All of them need nearly all rows; what differs is the work along rows at hand: " +
-            rowsText(first.shots) + " shots against " + rowsText(last.shots) + ".";
+            roundedCountText(first.shots) + " shots against " + roundedCountText(last.shots) + ".";
   } else {
     text += "All of them need nearly all rows, so the time of computing these decides, and it is the same.";
   }

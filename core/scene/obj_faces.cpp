@@ -18,6 +18,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/cancel.h"
 #include "base/error.h"
 #include "scene/polygon_plane.h"
 #include "scene/triangulate.h"
@@ -29,9 +30,8 @@ constexpr double kPlanarity = 1e-5;
 constexpr double kAreaAgreement = 1e-7;
 
 /// For each position the first one with the same coordinates.
-// Shares of the time until faces are clean, and until none is there twice; faces between two words on that.
+// Shares of the time until faces are clean, and until none is there twice.
 constexpr double kCleaned = 0.4, kUnique = 0.8;
-constexpr std::uint32_t kTold = 1024;
 
 std::vector<std::uint32_t> weld(const std::vector<glm::dvec3>& positions, const CancelToken& cancel) {
   std::vector<std::uint32_t> order(positions.size());
@@ -81,7 +81,7 @@ class Builder {
     std::uint32_t first = 0;
     for (std::uint32_t f = 0; f < scan_.faces.size(); ++f) {
       cancel_.check();
-      if (f % kTold == 0) cancel_.report(kCleaned * f / static_cast<double>(scan_.faces.size()));
+      if (f % kToldEvery == 0) cancel_.report(kCleaned * f / static_cast<double>(scan_.faces.size()));
       checkCorners(scan_.faces[f], first);
       cleanFace(f, first);
       first += scan_.faces[f].corner_count;

@@ -29,11 +29,11 @@ bool contains(const std::array<std::string_view, N>& words, std::string_view wor
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-constexpr std::uint32_t kTold = 4096;  // lines between two words on how much is read
+constexpr std::uint32_t kLinesTold = 4096;  // lines between two words on how much is read
 
-class Scanner {
+class LineScanner {
  public:
-  Scanner(std::string_view text, const std::filesystem::path& path, const CancelToken& cancel)
+  LineScanner(std::string_view text, const std::filesystem::path& path, const CancelToken& cancel)
       : text_(text), path_(path), cancel_(cancel) {}
 
   ObjScan run() {
@@ -44,7 +44,7 @@ class Scanner {
     while (reader.next(line)) {
       cancel_.check();
       line_ = line.line;
-      if (line_ % kTold == 0)
+      if (line_ % kLinesTold == 0)
         cancel_.report(static_cast<double>(line.text.data() - text_.data()) /
                        static_cast<double>(text_.size()));
       statement(line.text);
@@ -274,7 +274,7 @@ class Scanner {
 }  // namespace
 
 ObjScan scanObj(std::string_view text, const std::filesystem::path& path, const CancelToken& cancel) {
-  return Scanner(text, path, cancel).run();
+  return LineScanner(text, path, cancel).run();
 }
 
 }  // namespace unshot

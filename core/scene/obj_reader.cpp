@@ -12,6 +12,7 @@
 #include <sstream>
 #include <string>
 
+#include "base/cancel.h"
 #include "base/error.h"
 #include "scene/mtl_scan.h"
 #include "scene/obj_faces.h"
@@ -30,8 +31,6 @@ std::uint32_t absoluteIndex(int index, std::size_t count) {
   return static_cast<std::uint32_t>(index > 0 ? index - 1 : static_cast<std::int64_t>(count) + index);
 }
 
-constexpr std::size_t kTold = 1024;  // statements between two words on how much is read
-
 struct NumberSink {
   ObjNumbers numbers;
   const CancelToken& cancel;
@@ -40,7 +39,7 @@ struct NumberSink {
   static ObjNumbers& of(void* user) {
     auto& sink = *static_cast<NumberSink*>(user);
     sink.cancel.check();
-    if (++sink.read % kTold == 0)
+    if (++sink.read % kToldEvery == 0)
       sink.cancel.report(static_cast<double>(sink.read) / static_cast<double>(sink.all));
     return sink.numbers;
   }

@@ -14,6 +14,8 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "base/cross.h"
+
 namespace unshot {
 namespace {
 
@@ -30,8 +32,6 @@ constexpr double kClearlyBetter = 1 + 1e-3;
 /// How often all ears are looked at again when none is left: simple outlines need this never, rounding
 /// rarely.
 constexpr int kRescans = 8;
-
-double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
 /// Twice the signed area of the triangle.
 double orient(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) { return cross(b - a, c - a); }

@@ -35,7 +35,7 @@ std::vector<glm::dvec3> wide(const std::vector<glm::vec3>& field) { return {fiel
 
 double sumOf(const glm::dvec3& v) { return v.x + v.y + v.z; }
 
-MeshField fieldOf(const Mesh& mesh, const std::vector<glm::dvec3>& vertices) {
+MeshField meshFieldOf(const Mesh& mesh, const std::vector<glm::dvec3>& vertices) {
   return {{vertices.begin(), vertices.end()}, meanOverElements(mesh, vertices)};
 }
 
@@ -177,7 +177,7 @@ void FinalGather::finish() {
   if (!running()) return;
   stage_ = Stage::kRest;
   light_ = std::make_shared<const GatheredLight>(
-      GatheredLight{fieldOf(mesh_, vertices_), fieldOf(mesh_, direct_)});
+      GatheredLight{meshFieldOf(mesh_, vertices_), meshFieldOf(mesh_, direct_)});
   sent_ = {};
   for (auto* field : {&reflectance_, &element_direct_, &next_light_, &vertices_, &direct_}) *field = {};
 }

@@ -21,7 +21,7 @@ constexpr int kMostAttempts = 6;
 // Walls face each other where the angle between them is less than 60 degrees.
 constexpr double kFacing = 0.5;
 // Points look from this share of the way to the centre of a piece off its corners.
-constexpr double kInset = 0.1;
+constexpr double kPieceInset = 0.1;
 
 class GapQuestion {
  public:
@@ -84,7 +84,7 @@ class GapQuestion {
       const glm::dvec2 centre = polygonCentroid(polygon);
       if (isNearLamp(surface.point(centre), side, gap)) return true;
       for (const PieceCorner& corner : polygon) {
-        if (isNearLamp(surface.point(corner.uv + kInset * (centre - corner.uv)), side, gap)) return true;
+        if (isNearLamp(surface.point(corner.uv + kPieceInset * (centre - corner.uv)), side, gap)) return true;
       }
     }
     return false;

@@ -8,7 +8,7 @@
 namespace unshot {
 namespace {
 
-constexpr double kMostly = 0.95;
+constexpr double kMostlyLit = 0.95;
 
 /// One warning about all lights that `wrong` holds for: "a light of 'lamp'" or "3 lights (the first of
 /// 'lamp')", then what `one` or `many` says of them.
@@ -45,7 +45,7 @@ Diagnostics checkLightsThatFaceWalls(CheckedScene& checked) {
       checked,
       [](const LightView& light) {
         return 2 * light.flush <= light.rays && light.near > 0 &&
-               light.near >= kMostly * (light.near + light.arrived());
+               light.near >= kMostlyLit * (light.near + light.arrived());
       },
       "faces a surface directly before it: nothing of its light gets any further",
       "face surfaces directly before them: nothing of their light gets any further",

@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint32_t kAllRays = 20'000, kFewestRays = 32, kMostRays = 256, kMostLights = 2'000;
 // Of those that seem to see nothing or to be shut in, so many are looked at again, with so many rays each.
 constexpr std::uint32_t kMostSecondLooks = 64, kSecondRays = 1'000;
-constexpr double kNear = 0.01;  // of the light's size
+constexpr double kNearTheLight = 0.01;  // of the light's size
 // A walk of the light that is reflected, and how much of the scene's size it has to get about in.
 constexpr std::uint32_t kWalks = 128, kWalkSteps = 8;
 constexpr double kShutInSize = 0.6;
@@ -151,7 +151,7 @@ void LightLooks::follow(const Sampler& sampler, const Start& start, const glm::d
                         const MeshRays& rays, const ParallelSurfaces& parallels, LightView& view) const {
   ++view.rays;
   const std::uint32_t light = light_of_[start.surface];
-  const double near = kNear * std::sqrt(sampler.until.back());
+  const double near = kNearTheLight * std::sqrt(sampler.until.back());
   bool covered = false, flush = false;
   for (const ParallelSurfaces::Found& found : parallels.around(start.point, start.surface, near)) {
     if (light_of_[found.surface] == light) continue;

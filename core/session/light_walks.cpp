@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint32_t kWalkers = 1024, kForgotten = 4, kBounces = 16;
 constexpr std::uint32_t kLightWalkers = 1024, kMostLightBounces = 32;
 // Of the light that a walker began with: less is not followed.
-constexpr double kNegligible = 0.01;
+constexpr double kNotFollowed = 0.01;
 constexpr double kNearlyOne = 1 - 1e-9;
 
 class Walks {
@@ -123,7 +123,7 @@ class Walks {
           break;
         }
         light *= mesh_.sides[walker.side].reflectance;
-        if (light.x + light.y + light.z < kNegligible) break;
+        if (light.x + light.y + light.z < kNotFollowed) break;
       }
     }
     out_.escaped = escaped / kLightWalkers;

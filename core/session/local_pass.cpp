@@ -14,11 +14,11 @@ namespace {
 
 // A patch, or an element of the base, is near within so many of its radii. On the Cornell box of 600 elements
 // twice as many lower the error from 2.2 to 2.0 %, for five times the work; half as many leave 2.2 %.
-constexpr double kNear = 3;
+constexpr double kNearRadii = 3;
 // One of several surfaces has many elements, which are all looked at: on teapot_box half as many again take
 // twice as many looks and leave the error as it is (1.1 %), without any it is 1.4 %.
 constexpr double kNearJoined = 1;
-constexpr double kSeconds = 4e-3;  // of an advance
+constexpr double kPassSeconds = 4e-3;  // of an advance
 // Looks that are kept for the next pass, 24 bytes each.
 constexpr std::size_t kMostKept = 2'000'000;
 // Patches that each thread looks for before their light is added up.
@@ -34,7 +34,7 @@ std::vector<glm::dvec3> placesOf(const Receivers& receivers, const Range& range)
 }
 
 // Times SceneRays::lift: heights that rays tell from none.
-constexpr double kTold = 10;
+constexpr double kHeightsTold = 10;
 
 // Where to look for the polygon: its centre or, where that is below the view's horizon, a place half as high
 // as its highest corner; nothing where that is no height.
@@ -46,7 +46,7 @@ std::optional<glm::dvec3> placeAbove(const FactorPolygon& polygon, const Receive
   const glm::dvec3* top = &centre;
   for (const glm::dvec3& corner : polygon.corners()) top = height(corner) > height(*top) ? &corner : top;
   const double high = height(*top);
-  if (high < kTold * lift) return std::nullopt;
+  if (high < kHeightsTold * lift) return std::nullopt;
   return glm::mix(centre, *top, (high / 2 - low) / (high - low));
 }
 
@@ -105,7 +105,7 @@ void LocalPass::begin(const RadiosityState& state, const MeshField& irradiance) 
 }
 
 void LocalPass::advance(Transport& transport) {
-  const double until = wallSeconds() + kSeconds;
+  const double until = wallSeconds() + kPassSeconds;
   for (; running() && wallSeconds() < until; ++next_) {
     // What emitters reflect goes the way of their emission, along columns that are exact already.
     if (mesh_.emits(next_) || !transport.isKept(next_)) continue;
@@ -176,7 +176,7 @@ void LocalPass::find(std::uint32_t q, Hand& hand) const {
   out.near.clear();
   out.looks.clear();
   const glm::dvec3& middle = polygons_.middle(q);
-  const double near_radii = mesh_.joined(q) ? kNearJoined : kNear;
+  const double near_radii = mesh_.joined(q) ? kNearJoined : kNearRadii;
   tree_.nearSegment(middle, middle, near_radii * polygons_.radius(q), [&](std::uint32_t place) {
     const std::uint32_t v = first_receiver_ + place;
     bool near = false;
@@ -219,7 +219,7 @@ bool LocalPass::look(const ReceiverView& view, std::uint32_t q, std::vector<Look
   };
   for (const std::uint32_t g : groups_of_patch_[q]) {
     const Group& group = groups_[g];
-    const bool whole = glm::distance(view.position, group.middle) > kNear * group.radius;
+    const bool whole = glm::distance(view.position, group.middle) > kNearRadii * group.radius;
     for (const Tile& tile : whole ? group.whole : group.parts) {
       const double factor = tile.polygon.quick(view.position, view.normal, scratch);
       if (factor <= 0) continue;

@@ -12,7 +12,7 @@
 namespace unshot {
 namespace {
 
-constexpr double kInterval = 0.25;  // between two looks while it runs [s]
+constexpr double kLookInterval = 0.25;  // between two looks while it runs [s]
 constexpr std::size_t kSources = 8;
 
 const glm::dvec3 kNothing(0.0);
@@ -184,7 +184,7 @@ std::shared_ptr<const PatchInsight> LookingOn::lookAt(std::uint32_t patch) {
 
 void LookingOn::refresh(bool at_once) {
   const double began = wallSeconds();
-  if (!at_once && !pace_.due(began, kInterval)) return;
+  if (!at_once && !pace_.due(began, kLookInterval)) return;
   auto out = std::make_shared<Insight>();
   out->next = nextPatch();
   out->shot = shot_;

@@ -22,7 +22,7 @@ namespace {
 // is about as large (unshot_bench --only methods).
 constexpr double kBaseElements = 1'700;
 // The error falls with so much of a power of their number.
-constexpr double kOrder = 0.75;
+constexpr double kErrorOrder = 0.75;
 // Beyond, time grows with the square for little.
 constexpr double kFewestBase = 160, kMostBase = 10'000;
 // And so many for each lit side: as many receivers look at patches in any case, and near large ones that
@@ -31,7 +31,7 @@ constexpr double kForSides = 0.1;
 // Rays take a look from each vertex at each patch, hemicubes a picture of each patch and no more. So many
 // looks are some ten seconds: the teapot in its box, 4e8 of them, is sooner by hemicubes, two_rooms, 4e7, by
 // rays.
-constexpr double kMostLooks = 6e7;
+constexpr double kMostRayLooks = 6e7;
 // Of scenes with more than so many triangles that light reaches, that needs no mesh to be known.
 constexpr std::size_t kMostTriangles = 50'000;
 // Of scenes with no more, hemicubes on even elements are within some percent.
@@ -42,7 +42,7 @@ constexpr double kSurfacesShare = 0.45, kMeshShare = 0.9, kChecksShare = 0.95;
 // Light straight from emitters, on a coarse mesh: its vertices cost little there.
 constexpr double kFinerLight = 0.3;
 
-bool atVertices(const std::string& method) {
+bool seesFromVertices(const std::string& method) {
   return findChoice(formFactorMethods(), method, "form-factor method").receivers == ReceiverKind::kVertices;
 }
 
@@ -68,7 +68,7 @@ std::shared_ptr<const Mesh> uniformMesh(const SurfacesOfScene& surfaces, const M
 
 // As many as the error asks for, of a mesh to be refined, which has these sides.
 double baseElements(const SolveOptions& options, std::size_t sides) {
-  const double wanted = kBaseElements * std::pow(0.01 / options.error, 1 / kOrder);
+  const double wanted = kBaseElements * std::pow(0.01 / options.error, 1 / kErrorOrder);
   const double fewest = std::max(kFewestBase, kForSides * static_cast<double>(sides));
   return std::min(std::min(std::max(wanted, fewest), kMostBase), static_cast<double>(options.max_elements));
 }
@@ -139,7 +139,7 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
   const bool soonest =
       options.soonest && litTriangles(known).size() <= kMostTriangles && leaves(plan_keys::kHemicubes);
   const bool undecided = out.form_factors == "auto";
-  bool to_refine = may_follow && (undecided ? soonest : atVertices(out.form_factors));
+  bool to_refine = may_follow && (undecided ? soonest : seesFromVertices(out.form_factors));
   std::vector<PlanDecision> decisions;
   std::shared_ptr<const Mesh> coarsest;
   if (to_refine && open && out.form_factors == "closed-form") {
@@ -162,7 +162,7 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
   if (undecided) {
     const double looks =
         static_cast<double>(out.mesh->vertices.size()) * static_cast<double>(out.mesh->patch_count);
-    const bool by_rays = soonest && looks <= kMostLooks;
+    const bool by_rays = soonest && looks <= kMostRayLooks;
     out.form_factors = by_rays ? "rays" : "hemicube";
     const bool follows = may_follow && by_rays;
     if (follows != to_refine) out.mesh = meshed(follows);

@@ -25,7 +25,7 @@ constexpr int kCorrections = 3;
 constexpr double kCarryFactor = 1.8;
 // Half the width of a 95 % interval in standard errors, for the few dozens of places that matter of the
 // hundreds.
-constexpr double kInterval = 2.1;
+constexpr double kIntervalErrors = 2.1;
 
 // How many places of its own a patch needs to outweigh what is known of its side, a side what is known of
 // all.
@@ -58,8 +58,8 @@ ErrorEstimate estimateOf(const std::optional<Ratio>& square, std::size_t places)
   const auto root = [](double x) { return std::sqrt(std::max(x, 0.0)); };
   // Below 0 it is by noise, which leaves room for an error all the same.
   const double value = std::max(square->value, 0.0);
-  return {root(value), root(value - kInterval * square->error) / kCarryFactor,
-          kCarryFactor * root(value + kInterval * square->error), places};
+  return {root(value), root(value - kIntervalErrors * square->error) / kCarryFactor,
+          kCarryFactor * root(value + kIntervalErrors * square->error), places};
 }
 
 // What a look meets of light that patches send, one value per patch [W/m^2].

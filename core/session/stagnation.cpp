@@ -15,7 +15,7 @@ constexpr double kStagnationShare = 1e-4;
 // Of what is above zero: what modes that shoot back and forth leave below it.
 constexpr double kMostBelow = 0.01;
 // More than the form factors' single precision lets light have.
-constexpr double kMostBounces = 1e6;
+constexpr double kEndlessBounces = 1e6;
 
 }  // namespace
 
@@ -55,7 +55,7 @@ bool isLight(const RadiosityState& state) {
       below -= state.area()[q] * std::min(state.shot()[q][c], 0.0);
       emitted += state.area()[q] * state.emission()[q][c];
     }
-    if (below > kMostBelow * shot || shot > kMostBounces * emitted) return false;
+    if (below > kMostBelow * shot || shot > kEndlessBounces * emitted) return false;
   }
   return true;
 }

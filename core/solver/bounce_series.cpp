@@ -2,13 +2,13 @@
 
 #include <glm/common.hpp>
 
+#include "solver/patch_sums.h"
+
 namespace unshot {
 namespace {
 
 // A bounce with less of what is emitted than this is the last.
-constexpr double kLeastShare = 1e-5;
-
-double sum(const glm::dvec3& x) { return x.x + x.y + x.z; }
+constexpr double kLeastBounce = 1e-5;
 
 }  // namespace
 
@@ -45,7 +45,7 @@ bool BounceSeries::follow() {
 
 bool BounceSeries::done() const {
   return powers_.size() > kMost ||
-         (powers_.size() > 1 && sum(powers_.back()) <= kLeastShare * sum(powers_.front()));
+         (powers_.size() > 1 && sum(powers_.back()) <= kLeastBounce * sum(powers_.front()));
 }
 
 bool BounceSeries::advance() {

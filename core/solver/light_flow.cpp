@@ -4,7 +4,7 @@ namespace unshot {
 namespace {
 
 // So many columns at hand take less than a few milliseconds together.
-constexpr int kColumnsAtOnce = 64;
+constexpr int kColumnsOfAdvance = 64;
 
 }  // namespace
 
@@ -35,7 +35,7 @@ bool TransportProduct::wanted(std::uint32_t q) const { return flow_.shot[q] != g
 std::size_t TransportProduct::advance(Transport& transport) {
   std::size_t used = 0;
   const auto n = static_cast<std::uint32_t>(flow_.shot.size());
-  for (; next_ < n && used < kColumnsAtOnce; ++next_) {
+  for (; next_ < n && used < kColumnsOfAdvance; ++next_) {
     if (!wanted(next_)) continue;
     const bool at_hand = transport.isKept(next_);
     if (!at_hand && used > 0) break;

@@ -25,7 +25,7 @@ struct Channels {
 constexpr double kUnusual = 0.01;
 
 // Four sums side by side, which processors take in pairs or more.
-double dot(const float* a, const double* b, std::size_t count) {
+double dotOf(const float* a, const double* b, std::size_t count) {
   double sums[4] = {};
   std::size_t k = 0;
   for (; k + 4 <= count; k += 4) {
@@ -188,7 +188,7 @@ void PatchMatrix::transposed(std::span<const glm::dvec3> x, std::span<glm::dvec3
     for (std::uint32_t q = 0; q < columns_.size(); ++q) {
       double sum = 0;
       forEachRun(q, [&](std::uint32_t first, const float* values, std::size_t count) {
-        sum += dot(values, &weighted[first], count);
+        sum += dotOf(values, &weighted[first], count);
       });
       out[q] = glm::dvec3(sum / area_[q]);
     }
@@ -203,8 +203,8 @@ void PatchMatrix::transposed(std::span<const glm::dvec3> x, std::span<glm::dvec3
   for (std::uint32_t q = 0; q < columns_.size(); ++q) {
     glm::dvec3 sum(0.0);
     forEachRun(q, [&](std::uint32_t first, const float* values, std::size_t count) {
-      sum += glm::dvec3(dot(values, &weighted.r[first], count), dot(values, &weighted.g[first], count),
-                        dot(values, &weighted.b[first], count));
+      sum += glm::dvec3(dotOf(values, &weighted.r[first], count), dotOf(values, &weighted.g[first], count),
+                        dotOf(values, &weighted.b[first], count));
     });
     out[q] = sum / area_[q];
   }

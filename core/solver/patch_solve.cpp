@@ -7,7 +7,7 @@ namespace {
 
 using Field = std::vector<glm::dvec3>;
 
-constexpr std::size_t kDirections = 8;
+constexpr std::size_t kKeptDirections = 8;
 
 struct Direction {
   Field x, image;
@@ -54,7 +54,7 @@ std::vector<glm::dvec3> solvePatches(const PatchMatrix& matrix, const std::vecto
     bool done = true;
     for (int c = 0; c < 3; ++c) done = done && left[c] <= tolerance * tolerance * whole[c];
     if (done) break;
-    if (directions.size() >= kDirections) directions.pop_front();
+    if (directions.size() >= kKeptDirections) directions.pop_front();
     directions.push_back(std::move(d));
   }
   return x;
