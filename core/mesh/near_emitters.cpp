@@ -15,7 +15,7 @@ namespace {
 // so far apart, light is some percent off.
 constexpr double kShareOfDistance = 1.0 / 3;
 // Right beside an emitter, of its size.
-constexpr double kShareOfEmitter = 0.5;
+constexpr double kShareOfEmitter = 0.25;
 // Emitters larger than so many cells are cut, and what they light is smooth on the scale of a cell.
 constexpr double kMostCellsOfEmitter = 2;
 // Cells of a surface's grid, which is even.

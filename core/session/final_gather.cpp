@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "base/clock.h"
@@ -12,20 +11,21 @@
 namespace unshot {
 namespace {
 
-// In the city of lost_empire, 925 lamps, it leaves a noise of 4 % at a vertex, most of it light straight from
-// them; 36 rays take four fifths of the time and leave 5 %.
-constexpr LookSize kVertexLook{.strata = 8, .emitters = 16, .without_bias = false};
-// What elements send is looked at by many, and with each bounce anew.
-constexpr LookSize kElementLook{.strata = 5, .emitters = 8, .without_bias = false};
+constexpr LookSize kVertexLook{.strata = 6, .emitters = 8, .without_bias = false};
+// What elements send is looked at by many, and with each bounce anew; straight at emitters in the first ones.
+constexpr LookSize kElementLook{.strata = 5, .emitters = 8, .without_bias = false},
+    kLaterElementLook{.strata = 5, .emitters = 0, .without_bias = false};
+constexpr int kDirectBounces = 2;
 // Bounces end when one changes less of the light's power, which is some times what is still to come, or when
 // so many have been.
 constexpr double kSettled = 0.004;
 constexpr int kMostBounces = 6;
 // As many are expected: the solve brings the first ones.
 constexpr int kExpectedBounces = 4;
-// Looks of each vertex: without a limit of time, and at most with one.
-constexpr int kRounds = 2, kMostRounds = 8;
-constexpr double kNever = std::numeric_limits<double>::infinity();
+// Each vertex looks so often at most, or until vertices know what they receive to this share of it, in the
+// mean; so many looks tell how they differ, and so many are expected.
+constexpr int kMostRounds = 16, kLeastRounds = 2, kExpectedRounds = 4;
+constexpr double kLeastNoise = 0.05;
 constexpr double kSeconds = 10e-3;   // of an advance
 constexpr int kPositions = 8;        // of an element's look
 constexpr std::uint32_t kPart = 64;  // looks
@@ -51,10 +51,10 @@ void FinalGather::prepare() const {
   points_.emplace(mesh_);
 }
 
-double FinalGather::expectedSeconds() const {
+GatherSeconds FinalGather::expectedSeconds() const {
   prepare();
   const std::size_t count = receivers_->views.size();
-  if (count == 0) return 0;
+  if (count == 0) return {};
   // Of one look, in runs of neighbours as they come, the first ones of which find memory cold.
   const auto secondsOf = [&](const LookSize& size) {
     double seconds = 0;
@@ -70,22 +70,22 @@ double FinalGather::expectedSeconds() const {
     }
     return seconds / (kTrialRuns * kPart);
   };
-  return (static_cast<double>(count) * secondsOf(kVertexLook) +
-          kExpectedBounces * static_cast<double>(mesh_.element_count) * secondsOf(kElementLook)) /
-         workers_->count();
+  const double elements = kExpectedBounces * static_cast<double>(mesh_.element_count);
+  return {elements * secondsOf(kElementLook) / workers_->count(),
+          static_cast<double>(count) * secondsOf(kVertexLook) / workers_->count()};
 }
 
-void FinalGather::begin(const RadiosityState& state, const MeshField& irradiance, const MeshField& direct,
-                        std::optional<double> seconds) {
+void FinalGather::begin(const RadiosityState& state, const MeshField& irradiance, const MeshField& direct) {
   prepare();
-  until_ = seconds ? wallSeconds() + *seconds : kNever;
   sent_ = lightOf(mesh_, state, irradiance, true);
   reflectance_.clear();
   for (const std::uint32_t q : mesh_.element_patch) reflectance_.push_back(state.reflectance()[q]);
   next_light_.assign(mesh_.element_count, glm::dvec3(0.0));
   element_direct_ = next_light_;
-  vertices_ = wide(irradiance.vertices);
-  direct_ = wide(direct.vertices);
+  direct_ = {wide(direct.vertices), {}};
+  indirect_ = {wide(irradiance.vertices), {}};
+  for (std::size_t v = 0; v < indirect_.mean.size(); ++v) indirect_.mean[v] -= direct_.mean[v];
+  for (Looks* looks : {&direct_, &indirect_}) looks->squares.assign(looks->mean.size(), 0);
   stage_ = Stage::kBounces;
   bounce_ = round_ = 0;
   next_ = 0;
@@ -94,16 +94,15 @@ void FinalGather::begin(const RadiosityState& state, const MeshField& irradiance
 double FinalGather::progress() const {
   if (!running()) return light_ ? 1 : 0;
   const double elements = kMostBounces * static_cast<double>(mesh_.element_count),
-               vertices = static_cast<double>(vertices_.size());
-  const double done = stage_ == Stage::kBounces ? bounce_ * static_cast<double>(mesh_.element_count) + next_
-                                                : elements + (round_ > 0 ? vertices : next_);
-  return done / (elements + vertices);
+               vertices = static_cast<double>(direct_.mean.size()),
+               all = elements + kExpectedRounds * vertices;
+  if (stage_ == Stage::kBounces) return (bounce_ * static_cast<double>(mesh_.element_count) + next_) / all;
+  return std::min((elements + round_ * vertices + next_) / all, 0.99);
 }
 
 glm::dvec3 FinalGather::lookFrom(std::span<const glm::dvec3> positions, const glm::dvec3& normal,
-                                 std::uint64_t stream, glm::dvec3& direct) const {
-  const Gather look =
-      gatherer_->lookFromAll(positions, normal, stream, positions.size() > 1 ? kElementLook : kVertexLook);
+                                 std::uint64_t stream, const LookSize& size, glm::dvec3& direct) const {
+  const Gather look = gatherer_->lookFromAll(positions, normal, stream, size);
   direct = straightOf(look, sent_);
   return irradianceOf(look, sent_, mesh_);
 }
@@ -115,10 +114,10 @@ void FinalGather::lookFromElement(std::uint32_t element) {
   for (glm::dvec3& p : positions)
     p = points_->at(element, [&] { return unitInterval(draws = mixBits(draws)); });
   glm::dvec3 direct(0.0);
-  const glm::dvec3 all =
-      lookFrom(positions, mesh_.sides[mesh_.element_side[element]].normal, mixBits(draws), direct);
-  // Every bounce looks straight at the emitters again.
-  element_direct_[element] += (direct - element_direct_[element]) / (bounce_ + 1.0);
+  const glm::dvec3 all = lookFrom(positions, mesh_.sides[mesh_.element_side[element]].normal, mixBits(draws),
+                                  bounce_ < kDirectBounces ? kElementLook : kLaterElementLook, direct);
+  if (bounce_ < kDirectBounces)
+    element_direct_[element] += (direct - element_direct_[element]) / (bounce_ + 1.0);
   next_light_[element] = reflectance_[element] * (all - direct + element_direct_[element]);
 }
 
@@ -129,12 +128,13 @@ void FinalGather::lookFromVertex(std::uint32_t vertex) {
   for (std::size_t k = 0; k < views.size(); ++k) {
     glm::dvec3 direct(0.0);
     const std::uint64_t stream = mixBits(seed_ + vertex) + k + (static_cast<std::uint64_t>(round_) << 32);
-    sum += views[k].weight * lookFrom({&views[k].position, 1}, views[k].normal, mixBits(stream), direct);
+    sum += views[k].weight *
+           lookFrom({&views[k].position, 1}, views[k].normal, mixBits(stream), kVertexLook, direct);
     straight += views[k].weight * direct;
   }
-  if (round_ == 0) vertices_[vertex] = direct_[vertex] = glm::dvec3(0.0);
-  vertices_[vertex] += (sum - vertices_[vertex]) / (round_ + 1.0);
-  direct_[vertex] += (straight - direct_[vertex]) / (round_ + 1.0);
+  if (round_ == 0) indirect_.mean[vertex] = direct_.mean[vertex] = glm::dvec3(0.0);
+  indirect_.take(vertex, round_, sum - straight);
+  direct_.take(vertex, round_, straight);
 }
 
 void FinalGather::endBounce() {
@@ -147,20 +147,19 @@ void FinalGather::endBounce() {
   next_ = 0;
   if (++bounce_ < kMostBounces && std::abs(changed) > kSettled * all) return;
   stage_ = Stage::kVertices;
-  round_began_ = wallSeconds();
 }
 
 void FinalGather::endRound() {
-  const double now = wallSeconds(), took = now - std::exchange(round_began_, now);
   next_ = 0;
-  if (++round_ >= (until_ == kNever ? kRounds : kMostRounds) || now + took > until_) finish();
+  if (++round_ >= kMostRounds || (round_ >= kLeastRounds && noise() < kLeastNoise)) return finish();
+  show();
 }
 
 void FinalGather::advance() {
   const double until = wallSeconds() + kSeconds;
   while (running() && wallSeconds() < until) {
     const bool bounces = stage_ == Stage::kBounces;
-    const auto end = bounces ? mesh_.element_count : static_cast<std::uint32_t>(vertices_.size());
+    const auto end = bounces ? mesh_.element_count : static_cast<std::uint32_t>(direct_.mean.size());
     const std::uint32_t first = next_, parts = 2 * workers_->count();
     next_ = std::min(end, first + parts * kPart);
     workers_->run((next_ - first + kPart - 1) / kPart, [&](std::size_t part, unsigned) {
@@ -173,13 +172,40 @@ void FinalGather::advance() {
   }
 }
 
+double FinalGather::noise() const {
+  double sum = 0;
+  std::size_t lit = 0;
+  for (std::size_t v = 0; v < direct_.mean.size(); ++v) {
+    const double light = glm::length(direct_.mean[v] + indirect_.mean[v]);
+    if (!(light > 0)) continue;
+    sum += std::sqrt((direct_.squares[v] + indirect_.squares[v]) / (round_ * (round_ - 1.0))) / light;
+    ++lit;
+  }
+  return lit > 0 ? sum / static_cast<double>(lit) : 0;
+}
+
+// Straight light changes too much from vertex to vertex for its noise to be told from it: means would take
+// its peaks beside lamps away.
+void FinalGather::show() {
+  std::vector<glm::dvec3> all = indirect_.mean;
+  if (round_ >= kLeastRounds) {
+    std::vector<double> variance = indirect_.squares;
+    for (double& v : variance) v /= round_ * (round_ - 1.0);
+    if (!filter_) filter_.emplace(mesh_);
+    all = filter_->filtered(std::move(all), std::move(variance), *workers_);
+  }
+  for (std::size_t v = 0; v < all.size(); ++v) all[v] += direct_.mean[v];
+  light_ = std::make_shared<const GatheredLight>(
+      GatheredLight{meshFieldOf(mesh_, all), meshFieldOf(mesh_, direct_.mean)});
+}
+
 void FinalGather::finish() {
   if (!running()) return;
   stage_ = Stage::kRest;
-  light_ = std::make_shared<const GatheredLight>(
-      GatheredLight{meshFieldOf(mesh_, vertices_), meshFieldOf(mesh_, direct_)});
+  show();
   sent_ = {};
-  for (auto* field : {&reflectance_, &element_direct_, &next_light_, &vertices_, &direct_}) *field = {};
+  for (auto* field : {&reflectance_, &element_direct_, &next_light_}) *field = {};
+  direct_ = indirect_ = {};
 }
 
 void FinalGather::forget() {

@@ -16,10 +16,14 @@ namespace {
 // Shadow rays to an emitter, a grid: where there are few emitters, and where there are many.
 constexpr int kShadowStrata = 5, kFewShadowStrata = 2;
 constexpr std::size_t kFewEmitters = 4;
+// Of those that are not taken one by one at least this part of all is drawn.
+constexpr std::size_t kLeastDrawn = 4;
 // Emitters are wide from nearer than so many radii, and nearer to their plane than one.
 constexpr double kNear = 3;
 // Times SceneRays::lift: distances that rays tell from none.
 constexpr double kTold = 10;
+
+constexpr std::size_t kBlock = EmitterTable::kBlock;
 
 struct Draws {
   std::uint64_t state;
@@ -28,7 +32,52 @@ struct Draws {
 
 }  // namespace
 
-Gatherer::Gatherer(const Mesh& mesh) : mesh_(mesh), rays_(mesh) {
+void EmitterTable::add(const glm::dvec3& centre, const glm::dvec3& normal, double radius, double power) {
+  for (int c = 0; c < 3; ++c) {
+    centre_[c].push_back(static_cast<float>(centre[c] * scale_));
+    normal_[c].push_back(static_cast<float>(normal[c]));
+  }
+  radius_.push_back(static_cast<float>(radius * scale_));
+  power_.push_back(static_cast<float>(power));
+}
+
+void EmitterTable::fill() {
+  while (power_.size() % kBlock != 0) add(glm::dvec3(0.0), glm::dvec3(0.0), 1 / scale_, 0);
+}
+
+double EmitterTable::shares(const glm::dvec3& position, const glm::dvec3& normal, double spread,
+                            std::vector<float>& out) const {
+  out.resize(power_.size());
+  const glm::vec3 p(position * scale_), n(normal);
+  const auto wide = static_cast<float>(spread * scale_);
+  const float *x = centre_[0].data(), *y = centre_[1].data(), *z = centre_[2].data();
+  const float *nx = normal_[0].data(), *ny = normal_[1].data(), *nz = normal_[2].data();
+  const float *radii = radius_.data(), *power = power_.data();
+  float* const share = out.data();
+  double total = 0;
+  for (std::size_t first = 0; first < out.size(); first += kBlock) {
+    // As many at a time as the processor takes.
+    for (std::size_t k = first; k < first + kBlock; ++k) {
+      const float dx = x[k] - p.x, dy = y[k] - p.y, dz = z[k] - p.z;
+      const float radius = radii[k] + wide;
+      const float square = dx * dx + dy * dy + dz * dz + radius * radius;
+      const float above = dx * n.x + dy * n.y + dz * n.z + radius;
+      const float in_front = radius - (dx * nx[k] + dy * ny[k] + dz * nz[k]);
+      share[k] = power[k] * std::max(above, 0.0f) * std::max(in_front, 0.0f) / (square * square);
+    }
+    float sum = 0;
+    for (std::size_t k = first; k < first + kBlock; ++k) sum += share[k];
+    total += static_cast<double>(sum);
+  }
+  return total;
+}
+
+Gatherer::Gatherer(const Mesh& mesh)
+    : mesh_(mesh), rays_(mesh), table_(1 / glm::distance(mesh.bounds_min, mesh.bounds_max)) {
+  double strongest = 0;  // so that any strength is within the range of single precision
+  for (const Side& side : mesh.sides)
+    strongest = std::max(strongest, side.emission.x + side.emission.y + side.emission.z);
+  strongest *= mesh.surfaces.empty() ? 1 : 1 / (table_.scale() * table_.scale());
   for (std::uint32_t s = 0; s < mesh.sides.size(); ++s) {
     const glm::dvec3& e = mesh.sides[s].emission;
     if (e == glm::dvec3(0.0)) continue;
@@ -39,9 +88,11 @@ Gatherer::Gatherer(const Mesh& mesh) : mesh_(mesh), rays_(mesh) {
       const glm::dvec3 centre = (p[0] + p[1] + p[2]) / 3.0;
       const double radius =
           std::max({glm::distance(p[0], centre), glm::distance(p[1], centre), glm::distance(p[2], centre)});
-      emitters_.push_back({t, s, (e.x + e.y + e.z) * triangle.area, centre, radius});
+      emitters_.push_back({t, s});
+      table_.add(centre, mesh.sides[s].normal, radius, (e.x + e.y + e.z) * triangle.area / strongest);
     }
   }
+  table_.fill();
 }
 
 std::uint32_t Gatherer::elementOf(std::uint32_t surface, std::uint32_t side,
@@ -80,6 +131,7 @@ Gather Gatherer::lookFromAll(std::span<const glm::dvec3> positions, const glm::d
 void Gatherer::lookAtLights(std::span<const glm::dvec3> positions, const glm::dvec3& normal,
                             const std::vector<Reach>& reaches, std::uint64_t stream, std::size_t most,
                             Gather& out) const {
+  if (most == 0) return;
   if (emitters_.size() <= most) {
     const int strata = emitters_.size() <= kFewEmitters ? kShadowStrata : kFewShadowStrata;
     for (std::size_t k = 0; k < emitters_.size(); ++k)
@@ -94,27 +146,45 @@ void Gatherer::lookAtLights(std::span<const glm::dvec3> positions, const glm::dv
   for (const glm::dvec3& p : positions) middle += p / static_cast<double>(positions.size());
   double spread = 0;
   for (const glm::dvec3& p : positions) spread = std::max(spread, glm::distance(p, middle));
-  // In strata of the sum of what they may bring: nothing from behind them, or from below the horizon.
-  std::vector<double> sum(emitters_.size());
+  thread_local std::vector<float> may;
+  const double all = table_.shares(middle, normal, spread, may);
+  // Those that matter are taken one by one, the others drawn in strata of their sum.
+  const auto matters = static_cast<float>(all / static_cast<double>(2 * most));
+  std::size_t taken = 0;
   double total = 0;
-  for (std::size_t k = 0; k < emitters_.size(); ++k) {
-    const Emitter& emitter = emitters_[k];
-    const glm::dvec3 to = emitter.centre - middle;
-    const double radius = emitter.radius + spread, square = glm::dot(to, to) + radius * radius;
-    const double above = glm::dot(to, normal) + radius,
-                 in_front = radius - glm::dot(to, mesh_.sides[emitter.side].normal);
-    if (above > 0 && in_front > 0) total += emitter.power * above * in_front / (square * square);
-    sum[k] = total;
+  thread_local std::vector<double> sums;  // of the others of each block
+  sums.assign(may.size() / kBlock, 0);
+  for (std::size_t block = 0; block < sums.size(); ++block) {
+    double sum = 0;
+    for (std::size_t k = block * kBlock; k < (block + 1) * kBlock; ++k) {
+      if (may[k] >= matters && may[k] > 0) {
+        lookAtLight(emitters_[k], positions[taken++ % positions.size()], normal, reaches, kFewShadowStrata, 1,
+                    mixBits(stream + most + k), out);
+        may[k] = 0;
+      }
+      sum += static_cast<double>(may[k]);
+    }
+    total += sums[block] = sum;
   }
   if (!(total > 0)) return;
+  const std::size_t count = std::max(most - std::min(taken, most), most / kLeastDrawn);
   Draws draws{stream};
-  for (std::size_t i = 0; i < most; ++i) {
-    const double at = (static_cast<double>(i) + draws.next()) / static_cast<double>(most) * total;
-    const auto k = std::min<std::size_t>(
-        static_cast<std::size_t>(std::upper_bound(sum.begin(), sum.end(), at) - sum.begin()), sum.size() - 1);
-    const double probability = (sum[k] - (k > 0 ? sum[k - 1] : 0)) / total;
-    lookAtLight(emitters_[k], positions[i % positions.size()], normal, reaches, kFewShadowStrata,
-                1 / (static_cast<double>(most) * probability), mixBits(stream + i), out);
+  std::size_t block = 0;
+  double before = 0;  // of the sum, the blocks before
+  for (std::size_t i = 0; i < count; ++i) {
+    const double at = (static_cast<double>(i) + draws.next()) / static_cast<double>(count) * total;
+    while (block + 1 < sums.size() && before + sums[block] <= at) before += sums[block++];
+    double left = at - before;
+    std::size_t drawn = block * kBlock;
+    for (std::size_t k = drawn; k < (block + 1) * kBlock; ++k) {
+      if (may[k] <= 0) continue;
+      drawn = k;
+      if ((left -= static_cast<double>(may[k])) < 0) break;
+    }
+    if (may[drawn] <= 0) continue;  // by rounding, at the end
+    const double probability = static_cast<double>(may[drawn]) / total;
+    lookAtLight(emitters_[drawn], positions[(taken + i) % positions.size()], normal, reaches,
+                kFewShadowStrata, 1 / (static_cast<double>(count) * probability), mixBits(stream + i), out);
   }
 }
 

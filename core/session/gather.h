@@ -33,11 +33,37 @@ struct Gather {
 
 /// How many rays a look takes.
 struct LookSize {
-  int strata = 12;            ///< of rays, along each side of their grid
-  std::size_t emitters = 16;  ///< of more emitting triangles so many are drawn at random, else all are taken
+  int strata = 12;  ///< of rays, along each side of their grid
+  /// Of more emitting triangles so many are drawn at random, besides those that matter most; else all are
+  /// taken. 0: none is looked at.
+  std::size_t emitters = 16;
   /// What hides emitters that are wider than they are away is told by the rays, without bias, else as for
   /// others by points of them, with less noise.
   bool without_bias = true;
+};
+
+/// What each of many emitters may bring to a place, whatever hides it: by the power over the fourth power of
+/// the distance, and the cosines at both ends; nothing from behind, or from below the horizon.
+class EmitterTable {
+ public:
+  /// Lengths times `scale` are about 1.
+  explicit EmitterTable(double scale) : scale_(scale) {}
+
+  /// `centre` and `radius` [m] of a ball around it; `power` in any unit.
+  void add(const glm::dvec3& centre, const glm::dvec3& normal, double radius, double power);
+  /// After the last one: up to whole blocks, with some that bring nothing.
+  void fill();
+  double scale() const { return scale_; }
+  /// To a ball about `position`, of radius `spread`, on the side that `normal` points away from: one per
+  /// emitter, of which the sum is returned.
+  double shares(const glm::dvec3& position, const glm::dvec3& normal, double spread,
+                std::vector<float>& out) const;
+
+  static constexpr std::size_t kBlock = 16;
+
+ private:
+  double scale_;
+  std::vector<float> centre_[3], normal_[3], radius_, power_;
 };
 
 /// Looks around in a scene. Emitters are seen by their exact polygon factor times the share of it that shadow
@@ -60,9 +86,6 @@ class Gatherer {
   struct Emitter {
     std::uint32_t triangle;  // in Mesh::triangles
     std::uint32_t side;
-    double power;  // channels summed
-    glm::dvec3 centre{0.0};
-    double radius = 0;  // of a ball about it
   };
   struct Reach {
     glm::dvec3 direction;  // of a ray
@@ -81,6 +104,7 @@ class Gatherer {
   const Mesh& mesh_;
   MeshRays rays_;
   std::vector<Emitter> emitters_;
+  EmitterTable table_;  // of them
 };
 
 }  // namespace unshot

@@ -151,11 +151,15 @@ void Lane::lookInto(const InsightWanted& wanted) {
 void Lane::step(std::uint64_t most_shots) {
   const double before = solve_->errorSeconds();
   const bool alone = looking_on_ && most_shots == 1;
+  const bool gathering = solve_->gathers();
+  const void* gathered = solve_->gathered();
   try {
     if (alone) looking_on_->beforeStep();
     solve_->step(most_shots);
     if (alone) looking_on_->afterStep();
     bound_seconds_ += solve_->errorSeconds() - before;
+    // While light is gathered, all that is shown stays as it is but at the ends of its rounds.
+    if (gathering && solve_->gathers() && solve_->gathered() == gathered) return;
     stale_ = estimates_stale_ = true;
     estimateInPassing();
   } catch (...) {

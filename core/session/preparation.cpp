@@ -167,8 +167,7 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
     const bool follows = may_follow && by_rays;
     if (follows != to_refine) out.mesh = meshed(follows);
     to_refine = follows;
-    out.gathers =
-        !by_rays && options.soonest && surfaces && litTriangles(surfaces->mesh).size() > kFewTriangles;
+    out.gathers = !by_rays && surfaces && litTriangles(surfaces->mesh).size() > kFewTriangles;
     if (by_rays) decisions.push_back(withoutHemicubes(*out.mesh, options.error));
   }
   surfaces.reset();

@@ -75,6 +75,7 @@ void Solve::Impl::setUp(const std::function<gl::Context&()>& gl, const CancelTok
   seconds.plan = prepared.plan_seconds;
   sky = prepared.sky;
   if (!options.final_gather) options.final_gather = prepared.gathers;
+  solve_start = wallSeconds();
 
   cancel.check();
   makeTransport(gl, cancel);
@@ -125,7 +126,6 @@ void Solve::Impl::beginWith(SolvedAtOnce solved) {
 
 void Solve::Impl::begin() {
   chooseMode(options.mode);
-  solve_start = wallSeconds();
   if (state->emittedPower() <= 0) endWithoutLight();
 }
 

@@ -162,6 +162,8 @@ class Solve {
   /// final gathering is under way, of that.
   double progress() const;
   bool gathers() const;  ///< whether it is
+  /// What was gathered last and is shown; changes with every round of looks. Null: nothing.
+  const void* gathered() const;
   /// What the mode does besides shooting, such as "factorising"; empty: nothing, or it has ended.
   std::string activity() const;
 

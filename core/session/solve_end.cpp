@@ -16,8 +16,10 @@ constexpr double kLittleUnshot = 0.25;
 constexpr double kMostDrift = 1e-6;
 // What asks for a word is surely above the error asked for, and by estimate so many times as large.
 constexpr double kFarAbove = 3;
-// What final gathering is kept of a limited time, over what some looks let expect, and at most.
+// What final gathering is kept of a limited time, over what some looks let expect, and at most; for so many
+// looks of each vertex.
 constexpr double kGatherMargin = 1.15, kMostOfTime = 0.7;
+constexpr int kGatherRounds = 4;
 
 }  // namespace
 
@@ -38,17 +40,20 @@ void Solve::Impl::planGather() {
   if (!options.final_gather.value_or(false) || options.bounces || options.max_shots) return;
   final_gather = std::make_unique<FinalGather>(*mesh, workers, options.seed);
   if (!options.max_seconds) return;
-  gather_seconds = kGatherMargin * final_gather->expectedSeconds();
-  if (gather_seconds <= kMostOfTime * *options.max_seconds) return;
+  const double most = kMostOfTime * *options.max_seconds;
+  const GatherSeconds expected = final_gather->expectedSeconds();
+  const double least = kGatherMargin * (expected.bounces + expected.round);
+  gather_seconds = std::min(most, kGatherMargin * (expected.bounces + kGatherRounds * expected.round));
+  if (least <= most) return;
   final_gather.reset();
   diagnostics.push_back(
       {Severity::kNote,
        "not-gathered",
        "light is shown as hemicubes have it: final gathering, which is nearer to the truth, "
        "takes about " +
-           figureText(gather_seconds) + " s",
+           figureText(least) + " s",
        {},
-       "--max-seconds " + figureText(std::ceil(gather_seconds / kMostOfTime))});
+       "--max-seconds " + figureText(std::ceil(least / kMostOfTime))});
   gather_seconds = 0;
 }
 
@@ -64,10 +69,7 @@ void Solve::Impl::finishAs(SolveState how, std::string why) {
   if (final_gather) {
     finished_by = std::move(why);
     const MeshField direct = makeField(*mesh, transport->receivers(), state->direct());
-    std::optional<double> left;
-    if (options.max_seconds) left = *options.max_seconds - measures.seconds;
-    return final_gather->begin(*state, makeField(*mesh, transport->receivers(), shownIrradiance()), direct,
-                               left);
+    return final_gather->begin(*state, makeField(*mesh, transport->receivers(), shownIrradiance()), direct);
   }
   if (how != SolveState::kConverged) return stop(how, std::move(why));
   last_sweeps = {};

@@ -59,6 +59,10 @@ double Solve::progress() const {
 
 bool Solve::gathers() const { return impl_->final_gather && impl_->final_gather->running(); }
 
+const void* Solve::gathered() const {
+  return impl_->final_gather ? impl_->final_gather->light().get() : nullptr;
+}
+
 std::string Solve::activity() const {
   const Impl& s = *impl_;
   if (s.progress_state != SolveState::kRunning) return {};

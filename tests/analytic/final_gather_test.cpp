@@ -44,6 +44,29 @@ TEST(FinalGather, IsNearerToTracedLightThanWhatItStartsFrom) {
   EXPECT_LT(after, 0.7 * before);
 }
 
+// The light that a window shows sharpens in stages.
+TEST(FinalGather, IsNearerToTracedLightWithEveryRoundOfLooks) {
+  const Truth points = readReferencePoints(std::filesystem::path(UNSHOT_TEST_DATA) / "cornell_published.csv");
+  auto solve = begun(publishedCornellBox(), coarselySeen(true));
+  std::vector<double> errors;
+  const auto look = [&] {
+    errors.push_back(reflectedError(points, answerProbes(solve->snapshot(), probesOf(points), false)));
+    measured("stage " + std::to_string(errors.size()) + ", nRMSE", errors.back());
+  };
+  while (!solve->gathers()) solve->step();
+  look();
+  for (const void* shown = solve->gathered(); solve->state() == SolveState::kRunning;) {
+    solve->step();
+    if (solve->gathered() == shown) continue;
+    shown = solve->gathered();
+    look();
+  }
+  ASSERT_GE(errors.size(), 3u);
+  EXPECT_LT(errors[1], errors[0]);
+  EXPECT_LT(errors[2], errors[1]);
+  EXPECT_LT(errors.back(), 1.02 * errors[2]) << "later ones lower what noise is left";
+}
+
 // B = 1 solves B = E + rho H in a closed cube of E = 0.5, rho = 0.5, whatever the mesh. Begun with a third
 // of it unshot: bounces bring the rest.
 TEST(FinalGather, CarriesLightOnToTheEnd) {

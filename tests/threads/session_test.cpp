@@ -69,6 +69,28 @@ TEST(Session, ConvergesToWhatAPlainSolveFindsInEveryMode) {
   }
 }
 
+// Each round of looks is shown, the last is what a plain solve ends with, and materials can be edited then.
+TEST(Session, GathersInRoundsThatAreShown) {
+  SolveOptions options = closedForm(300, 0.02);
+  options.final_gather = true;
+  const auto plain = plainSolve(asset("cornell_box.obj"), options);
+  SessionWatch watch;
+  watch->setPublishInterval(0);
+  watch->open(asset("cornell_box.obj"), options);
+  const StatePointer state = watch.rested();
+  ASSERT_EQ(state->phase, SessionPhase::kConverged);
+  EXPECT_LE(relativeDifference(state->snapshot->irradiance, plain->snapshot().irradiance), 1e-12);
+  watch.close();
+  std::vector<std::vector<glm::vec3>> shown;
+  for (const auto& seen : watch.seen()) {
+    if (seen.state->activity != "gathering" && seen.state->phase != SessionPhase::kConverged) continue;
+    if (shown.empty() || shown.back() != seen.state->snapshot->irradiance)
+      shown.push_back(seen.state->snapshot->irradiance);
+  }
+  EXPECT_GE(shown.size(), 2u) << "what the solve had, and what was gathered";
+  checkPublications(watch.seen());
+}
+
 TEST(Session, ShowsTheUnlitSceneAtOnceAndSaysWhatItLoads) {
   SessionWatch watch;
   watch->open(asset("two_patches.obj"), closedForm(60, 0.01));
