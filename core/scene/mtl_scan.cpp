@@ -51,7 +51,7 @@ class Scanner {
     if (keyword == "newmtl") {
       // The name is the entry's own; tinyobjloader gets one that it cannot misread.
       scan_.entries.push_back({});
-      scan_.entries.back().name = std::string(trimmed(rest));
+      scan_.entries.back().name = std::string(withoutBlanks(rest));
       scan_.entries.back().line = line_;
       scan_.plain += "newmtl m" + std::to_string(scan_.entries.size()) + "\n";
       return;
@@ -59,16 +59,16 @@ class Scanner {
     if (scan_.entries.empty()) return;
     MtlEntry& entry = scan_.entries.back();
     if (keyword == "Kd") {
-      entry.diffuse_text = std::string(withoutComment(trimmed(rest)));
+      entry.diffuse_text = std::string(withoutComment(withoutBlanks(rest)));
       entry.diffuse_line = line_;
       entry.diffuse_readable = colour("Kd", rest);
     } else if (keyword == "Ke") {
-      entry.emission_text = std::string(withoutComment(trimmed(rest)));
+      entry.emission_text = std::string(withoutComment(withoutBlanks(rest)));
       entry.emission_line = line_;
       entry.emission_readable = colour("Ke", rest);
     } else if (keyword == "map_Kd") {
       entry.texture_line = line_;
-      scan_.plain.append("map_Kd ").append(trimmed(rest)).append("\n");
+      scan_.plain.append("map_Kd ").append(withoutBlanks(rest)).append("\n");
     } else {
       readPast(entry, keyword, rest);
     }
@@ -114,7 +114,7 @@ MtlScan scanMtl(std::string_view text) { return Scanner().run(text); }
 
 std::filesystem::path findBeside(const std::filesystem::path& folder, std::string_view name) {
   const auto attempt = [&](std::string_view spelling) -> std::filesystem::path {
-    spelling = trimmed(spelling);
+    spelling = withoutBlanks(spelling);
     if (spelling.size() >= 2 && spelling.front() == '"' && spelling.back() == '"') {
       spelling = spelling.substr(1, spelling.size() - 2);
     }

@@ -104,11 +104,11 @@ class LineScanner {
     } else if (keyword == "vt") {
       ++texture_count_;
     } else if (keyword == "usemtl") {
-      useMaterial(trimmed(rest));
+      useMaterial(withoutBlanks(rest));
     } else if (keyword == "s") {
       smoothing(rest);
     } else if (keyword == "mtllib") {
-      scan_.libraries.push_back({std::string(trimmed(rest)), line_});
+      scan_.libraries.push_back({std::string(withoutBlanks(rest)), line_});
     } else if (keyword == "l" || keyword == "p") {
       scan_.lines_and_points.add(line_);
     } else if (contains(kFreeForm, keyword)) {

@@ -35,7 +35,7 @@ bool continues(std::string_view piece) {
 
 }  // namespace
 
-std::string_view trimmed(std::string_view text) {
+std::string_view withoutBlanks(std::string_view text) {
   while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
   while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
   return text;
@@ -43,7 +43,7 @@ std::string_view trimmed(std::string_view text) {
 
 std::string_view withoutComment(std::string_view text) {
   for (std::size_t i = text.find('#'); i != std::string_view::npos; i = text.find('#', i + 1)) {
-    if (i == 0 || isBlank(text[i - 1])) return trimmed(text.substr(0, i));
+    if (i == 0 || isBlank(text[i - 1])) return withoutBlanks(text.substr(0, i));
   }
   return text;
 }
@@ -73,7 +73,7 @@ std::string_view LineReader::physicalLine() {
   }
   rest_.remove_prefix(end);
   ++line_;
-  return trimmed(line);
+  return withoutBlanks(line);
 }
 
 bool LineReader::next(LogicalLine& line) {
@@ -87,7 +87,7 @@ bool LineReader::next(LogicalLine& line) {
         piece = rest_.empty() ? std::string_view() : physicalLine();
       }
       joined_.append(piece);
-      piece = trimmed(joined_);
+      piece = withoutBlanks(joined_);
     }
     if (piece.empty() || piece.front() == '#') continue;
     line.text = piece;

@@ -35,7 +35,8 @@ class LineReader {
 /// Takes the next word (up to blank or tab) off `rest`; empty at the end.
 std::string_view takeWord(std::string_view& rest);
 
-std::string_view trimmed(std::string_view text);
+/// At its ends: blanks, tabs, vertical tabs and form feeds.
+std::string_view withoutBlanks(std::string_view text);
 
 /// Without a comment: up to a # that begins the text or follows a blank.
 std::string_view withoutComment(std::string_view text);

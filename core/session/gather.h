@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesh/mesh_rays.h"
+#include "session/emitter_table.h"
 
 namespace unshot {
 
@@ -40,30 +41,6 @@ struct LookSize {
   /// What hides emitters that are wider than they are away is told by the rays, without bias, else as for
   /// others by points of them, with less noise.
   bool without_bias = true;
-};
-
-/// What each of many emitters may bring to a place, whatever hides it: by the power over the fourth power of
-/// the distance, and the cosines at both ends; nothing from behind, or from below the horizon.
-class EmitterTable {
- public:
-  /// Lengths times `scale` are about 1.
-  explicit EmitterTable(double scale) : scale_(scale) {}
-
-  /// `centre` and `radius` [m] of a ball around it; `power` in any unit.
-  void add(const glm::dvec3& centre, const glm::dvec3& normal, double radius, double power);
-  /// After the last one: up to whole blocks, with some that bring nothing.
-  void fill();
-  double scale() const { return scale_; }
-  /// To a ball about `position`, of radius `spread`, on the side that `normal` points away from: one per
-  /// emitter, of which the sum is returned.
-  double shares(const glm::dvec3& position, const glm::dvec3& normal, double spread,
-                std::vector<float>& out) const;
-
-  static constexpr std::size_t kBlock = 16;
-
- private:
-  double scale_;
-  std::vector<float> centre_[3], normal_[3], radius_, power_;
 };
 
 /// Looks around in a scene. Emitters are seen by their exact polygon factor times the share of it that shadow

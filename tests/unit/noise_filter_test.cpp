@@ -71,7 +71,8 @@ TEST(NoiseFilter, TakesMostOfTheNoiseOfEvenLight) {
   Workers workers(2);
   const Noisy field = noisy(mesh, 0.1, [](const glm::dvec3&) { return glm::dvec3(1, 0.5, 0.2); });
   const double before = field.error(field.values, kEverywhere),
-               after = field.error(NoiseFilter(mesh).filtered(field.values, field.variance, workers), kEverywhere);
+               after = field.error(NoiseFilter(mesh).filtered(field.values, field.variance, workers),
+                                   kEverywhere);
   EXPECT_NEAR(before, 0.1, 0.01);
   // Means over about 60 vertices would leave an eighth, were they as independent as they are alike.
   EXPECT_LT(after, 0.3 * before);
