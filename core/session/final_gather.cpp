@@ -25,8 +25,8 @@ constexpr int kMostBounces = 6;
 // As many are expected: the solve brings the first ones.
 constexpr int kExpectedBounces = 4;
 // Each vertex looks so often at most, or until vertices know what they receive to this share of it, in the
-// mean; so many looks tell how they differ, and so many are expected.
-constexpr int kMostRounds = 16, kLeastRounds = 2, kExpectedRounds = 4;
+// mean; so many looks tell how they differ.
+constexpr int kMostRounds = 16, kLeastRounds = 2;
 constexpr double kLeastNoise = 0.05;
 constexpr double kSeconds = 10e-3;   // of an advance
 constexpr int kPositions = 8;        // of an element's look
@@ -180,7 +180,7 @@ double FinalGather::noise() const {
   for (std::size_t v = 0; v < direct_.mean.size(); ++v) {
     const double light = glm::length(direct_.mean[v] + indirect_.mean[v]);
     if (!(light > 0)) continue;
-    sum += std::sqrt((direct_.squares[v] + indirect_.squares[v]) / (round_ * (round_ - 1.0))) / light;
+    sum += std::sqrt(varianceOf(direct_.squares[v] + indirect_.squares[v])) / light;
     ++lit;
   }
   return lit > 0 ? sum / static_cast<double>(lit) : 0;
@@ -192,7 +192,7 @@ void FinalGather::show() {
   std::vector<glm::dvec3> all = indirect_.mean;
   if (round_ >= kLeastRounds) {
     std::vector<double> variance = indirect_.squares;
-    for (double& v : variance) v /= round_ * (round_ - 1.0);
+    for (double& v : variance) v = varianceOf(v);
     if (!filter_) filter_.emplace(mesh_);
     all = filter_->filtered(std::move(all), std::move(variance), *workers_);
   }

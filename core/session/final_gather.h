@@ -42,6 +42,9 @@ struct GatherSeconds {
 
 class FinalGather {
  public:
+  /// Looks of each vertex that time is kept for; there may be more, or fewer.
+  static constexpr int kExpectedRounds = 4;
+
   /// The mesh must outlive it. `workers` share it out; the light is the same with any number of them.
   FinalGather(const Mesh& mesh, std::shared_ptr<Workers> workers, std::uint64_t seed);
 
@@ -85,6 +88,8 @@ class FinalGather {
       squares[vertex] += glm::dot(off, value - mean[vertex]);
     }
   };
+  // Of a mean, by the squares of the rounds' differences from it.
+  double varianceOf(double squares) const { return squares / (round_ * (round_ - 1.0)); }
   double noise() const;
   void show();
 

@@ -13,7 +13,8 @@ namespace {
 constexpr int kTimes = 4;
 // How often variances, which a few looks know badly, take the mean of those around them before.
 constexpr int kVarianceTimes = 2;
-// A difference counts for nothing where its square is so many times what noise lets expect.
+// A neighbour's weight falls to 1/e where the square of the difference is so many times what noise lets
+// expect.
 constexpr double kMostNoise = 4;
 // Of vertices in one place so many are beside each.
 constexpr std::size_t kMostInPlace = 8;

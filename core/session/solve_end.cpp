@@ -16,10 +16,8 @@ constexpr double kLittleUnshot = 0.25;
 constexpr double kMostDrift = 1e-6;
 // What asks for a word is surely above the error asked for, and by estimate so many times as large.
 constexpr double kFarAbove = 3;
-// What final gathering is kept of a limited time, over what some looks let expect, and at most; for so many
-// looks of each vertex.
+// What final gathering is kept of a limited time, over what some looks let expect, and at most.
 constexpr double kGatherMargin = 1.15, kMostOfTime = 0.7;
-constexpr int kGatherRounds = 4;
 
 }  // namespace
 
@@ -43,7 +41,8 @@ void Solve::Impl::planGather() {
   const double most = kMostOfTime * *options.max_seconds;
   const GatherSeconds expected = final_gather->expectedSeconds();
   const double least = kGatherMargin * (expected.bounces + expected.round);
-  gather_seconds = std::min(most, kGatherMargin * (expected.bounces + kGatherRounds * expected.round));
+  gather_seconds =
+      std::min(most, kGatherMargin * (expected.bounces + FinalGather::kExpectedRounds * expected.round));
   if (least <= most) return;
   final_gather.reset();
   diagnostics.push_back(

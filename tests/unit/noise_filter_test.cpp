@@ -13,8 +13,8 @@ namespace {
 
 using namespace testing_support;
 
-/// A floor and a shelf that stands on edge in the middle of it.
-Mesh dividedFloor() {
+/// A floor below a lamp of its size.
+Mesh floorBelowALamp() {
   SceneBuilder b;
   const auto grey = b.material("grey", glm::dvec3(0.5));
   const auto lamp = b.material("lamp", glm::dvec3(0.0), glm::dvec3(1));
@@ -67,7 +67,7 @@ Noisy noisy(const Mesh& mesh, double noise, Truth&& truth) {
 const auto kEverywhere = [](std::size_t) { return true; };
 
 TEST(NoiseFilter, TakesMostOfTheNoiseOfEvenLight) {
-  const Mesh mesh = dividedFloor();
+  const Mesh mesh = floorBelowALamp();
   Workers workers(2);
   const Noisy field = noisy(mesh, 0.1, [](const glm::dvec3&) { return glm::dvec3(1, 0.5, 0.2); });
   const double before = field.error(field.values, kEverywhere),
@@ -79,7 +79,7 @@ TEST(NoiseFilter, TakesMostOfTheNoiseOfEvenLight) {
 }
 
 TEST(NoiseFilter, KeepsAShadowThatIsMoreThanNoise) {
-  const Mesh mesh = dividedFloor();
+  const Mesh mesh = floorBelowALamp();
   Workers workers(2);
   const auto lit = [&](const glm::dvec3& p) { return p.x < -0.1; };
   const Noisy field = noisy(mesh, 0.05, [&](const glm::dvec3& p) { return glm::dvec3(lit(p) ? 1.0 : 0.3); });
@@ -91,7 +91,7 @@ TEST(NoiseFilter, KeepsAShadowThatIsMoreThanNoise) {
 }
 
 TEST(NoiseFilter, LeavesWhatIsKnownExactly) {
-  const Mesh mesh = dividedFloor();
+  const Mesh mesh = floorBelowALamp();
   Workers workers(2);
   const auto lit = [](const glm::dvec3& p) { return p.x < 0; };
   const Noisy field = noisy(mesh, 0.3, [&](const glm::dvec3& p) { return glm::dvec3(lit(p) ? 1.0 : 0.0); });
@@ -106,7 +106,7 @@ TEST(NoiseFilter, LeavesWhatIsKnownExactly) {
 }
 
 TEST(NoiseFilter, IsTheSameWithAnyNumberOfThreads) {
-  const Mesh mesh = dividedFloor();
+  const Mesh mesh = floorBelowALamp();
   const Noisy field = noisy(mesh, 0.1, [](const glm::dvec3& p) { return glm::dvec3(2 + p.x); });
   Workers one(1), three(3);
   const NoiseFilter filter(mesh);
