@@ -19,6 +19,7 @@ constexpr std::size_t kFewestFinePieces = 2'000;  // of pictures with many sampl
 constexpr double kBandSamples = 1e6;              // of such a picture at a time; 20 bytes each
 constexpr std::size_t kFewestRows = 64;
 constexpr std::size_t kMarkedAtOnce = 20'000;  // triangles, whose marks take some milliseconds to find
+constexpr std::size_t kMostMerged = 60'000;    // triangles of a coarse picture, aimed at: some 20 ms
 constexpr std::size_t kFewestBytes = 1 << 20;
 
 /// Whether samples that were drawn are also those of the other one.
@@ -41,6 +42,7 @@ int heightOf(const SceneDisplay::Wanted& wanted) {
 ViewOptions viewOf(const SceneDisplay::Wanted& wanted) {
   ViewOptions view = wanted.settings.view;
   view.supersampling = wanted.samples;
+  view.merged = wanted.divisor > 1;
   return view;
 }
 
@@ -118,6 +120,22 @@ bool SceneDisplay::marksStand(const Wanted& wanted) {
   return true;
 }
 
+/// Of a large mesh, fewer triangles for coarse pictures, once per mesh. Those before them have all.
+void SceneDisplay::seekMerged() {
+  if (!snapshot_) return;
+  const std::shared_ptr<const Mesh>& mesh = snapshot_->mesh;
+  if (merged_cut_ != mesh->cut) {
+    merged_cut_ = mesh->cut;
+    merging_.reset();
+    if (mesh->triangle_element.size() <= kMostMerged) return;
+    const auto merge = [mesh](const CancelToken& cancel) {
+      return mergeTriangles(*mesh, kMostMerged, cancel);
+    };
+    merging_ = std::make_unique<Background<MergedTriangles>>(merge, nullptr);
+  }
+  if (merging_ && merging_->ready()) view_.beginMerged(std::exchange(merging_, nullptr)->take());
+}
+
 /// What is drawn while marks are being found: the display before, where the camera has moved. None: the
 /// picture before stays.
 std::optional<SceneDisplay::Wanted> SceneDisplay::meanwhile(const Wanted& wanted) const {
@@ -187,6 +205,7 @@ bool SceneDisplay::draw(const Wanted& wanted, double seconds, double deadline) {
   }
   glide_seconds_ = seconds < 0 || glide_seconds_ < 0 ? -1 : glide_seconds_ + seconds;
   const StateGuard guard(context_.functions());
+  if (!making_ && now->divisor > 1) seekMerged();
   if (!upload(deadline)) return true;
   if (!making_) begin(*now);
   deadline = extended(deadline);

@@ -61,7 +61,9 @@ class SceneDisplay {
     DisplaySettings settings;
     int width = 0, height = 0;  ///< [px]
     int samples = 1;            ///< along a pixel's side
-    int divisor = 1;            ///< pixels along the side of one that is drawn; a finer picture does too
+    /// Pixels along the side of one that is drawn; a finer picture does too. Above 1, cells of large meshes
+    /// are drawn several as one (render/merged_triangles.h), once it is known which.
+    int divisor = 1;
   };
   /// Draws at once, however long it takes.
   static constexpr double kAtOnce = std::numeric_limits<double>::infinity();
@@ -157,6 +159,7 @@ class SceneDisplay {
 
   bool differs(const Wanted& wanted) const;
   bool marksStand(const Wanted& wanted);
+  void seekMerged();
   std::optional<Wanted> meanwhile(const Wanted& wanted) const;
   bool sampled(const Wanted& wanted) const;
   void begin(const Wanted& wanted);
@@ -186,6 +189,8 @@ class SceneDisplay {
   SceneView view_;
   std::shared_ptr<const Snapshot> snapshot_;
   std::optional<MarksSearch> marks_;
+  std::uint64_t merged_cut_ = 0;  // of the mesh whose triangles were merged, or are being so
+  std::unique_ptr<Background<MergedTriangles>> merging_;
   std::optional<CameraSearch> framing_;
   bool framing_hurries_ = false;
   Picture shown_, next_;

@@ -101,6 +101,7 @@ SceneBuffers::SceneBuffers(gl::Context& context)
       reference_(context),
       given_(context),
       triangles_(context),
+      merged_(context),
       edges_(context),
       unlit_(context),
       sides_(context),
@@ -240,6 +241,7 @@ void SceneBuffers::beginMesh(const std::shared_ptr<const Mesh>& shared_mesh) {
   sendAll(mesh_uploads_, triangles_, own(mesh.triangle_vertices));
   triangle_index_count_ = static_cast<GLsizei>(mesh.triangle_vertices.size());
   triangle_blocks_ = TriangleBlocks(mesh);
+  merged_count_ = 0;
   has_edges_ = has_patch_colours_ = false;
 
   beginSides(shared_mesh, unlit);
@@ -338,6 +340,13 @@ void SceneBuffers::beginMarks(const MeshMarks& marks) {
     attachTexels(context_.functions(), element_colours_texture_, GL_RGBA32F, element_colours_);
     has_patch_colours_ = true;
   }
+}
+
+void SceneBuffers::beginMerged(const MergedTriangles& merged) {
+  if (!mesh_ || merged.cut != mesh_->cut || !merged.corners || hasMerged()) return;
+  sendAll(mesh_uploads_, merged_, merged.corners);
+  merged_blocks_ = merged.blocks;
+  merged_count_ = merged.corners->size() / 3;
 }
 
 void SceneBuffers::completeMarks(const DisplayMode& mode) {

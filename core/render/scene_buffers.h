@@ -7,6 +7,7 @@
 #include "gl/objects.h"
 #include "render/camera.h"
 #include "render/display_modes.h"
+#include "render/merged_triangles.h"
 #include "render/mesh_marks.h"
 #include "render/reference_light.h"
 #include "render/triangle_blocks.h"
@@ -36,6 +37,10 @@ class SceneBuffers {
   void beginMarks(const MeshMarks& marks);
   /// Finds and uploads at once those that the mode still lacks.
   void completeMarks(const DisplayMode& mode);
+  /// Whether the present mesh has triangles that are merged, or on their way.
+  bool hasMerged() const { return merged_count_ > 0; }
+  /// Begins to upload them; of another mesh they are of no use.
+  void beginMerged(const MergedTriangles& merged);
 
   /// Binds the vertex array with the light and the quantity that are meant, brought up to date. Returns the
   /// same light of the elements, or their colours where the quantity is that. `reference`: what kDifference
@@ -55,10 +60,16 @@ class SceneBuffers {
   const glm::dvec3& sky() const { return sky_; }
   /// Of what was compared with last.
   double referenceMean() const { return reference_light_ ? reference_light_->mean : 0; }
-  const gl::Buffer& triangles() const { return triangles_; }
-  const TriangleBlocks& triangleBlocks() const { return triangle_blocks_; }
+  struct Triangles {
+    const gl::Buffer& corners;
+    const TriangleBlocks& blocks;
+    std::size_t count;
+  };
+  Triangles triangles() const {
+    return {triangles_, triangle_blocks_, static_cast<std::size_t>(triangle_index_count_) / 3};
+  }
+  Triangles mergedTriangles() const { return {merged_, merged_blocks_, merged_count_}; }
   const gl::Buffer& edges() const { return edges_; }
-  std::size_t triangleCount() const { return static_cast<std::size_t>(triangle_index_count_) / 3; }
   std::size_t unlitCount() const { return unlit_corners_ / 3; }  ///< triangles of bindUnlit()
   std::size_t edgeCount() const { return static_cast<std::size_t>(edge_index_count_) / 2; }
   const gl::Texture& sides() const { return sides_texture_; }
@@ -98,15 +109,15 @@ class SceneBuffers {
   bool given_uploaded_ = false;                             // or nothing in its place
   gl::Buffer vertices_, irradiance_, direct_, ambient_, unshot_, bounces_, residual_, bounce_irradiance_,
       reference_, given_;
-  TriangleBlocks triangle_blocks_;
-  gl::Buffer triangles_, edges_, unlit_;
+  TriangleBlocks triangle_blocks_, merged_blocks_;
+  gl::Buffer triangles_, merged_, edges_, unlit_;
   gl::Buffer sides_, triangle_elements_, element_irradiance_, element_direct_, element_bounce_,
       element_colours_;
   gl::Texture sides_texture_, triangle_elements_texture_, element_irradiance_texture_,
       element_direct_texture_, element_bounce_texture_, element_colours_texture_;
   GLsizei triangle_index_count_ = 0;
   GLsizei edge_index_count_ = 0;
-  std::size_t unlit_corners_ = 0;
+  std::size_t merged_count_ = 0, unlit_corners_ = 0;
   bool has_edges_ = false, has_patch_colours_ = false;  // or they are on their way
 };
 

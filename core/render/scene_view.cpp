@@ -68,12 +68,19 @@ const LinearTarget& SceneView::target(LinearTarget& kept, int width, int height)
   return kept;
 }
 
+SceneBuffers::Triangles SceneView::trianglesOf(const ViewOptions& options) const {
+  const DisplayMode& mode = displayMode(options.display);
+  // Elements are shown as they are.
+  const bool merged = options.merged && buffers_.hasMerged() && !mode.per_element && !mode.edges;
+  return merged ? buffers_.mergedTriangles() : buffers_.triangles();
+}
+
 std::size_t SceneView::pieceCount(const ViewOptions& options, bool with_edges) {
   if (!buffers_.mesh()) return 0;
   const DisplayMode& mode = displayMode(options.display);
   const bool edges = with_edges && mode.edges;
   if (edges) buffers_.completeMarks(mode);
-  return buffers_.triangleCount() + buffers_.unlitCount() + (edges ? buffers_.edgeCount() : 0);
+  return trianglesOf(options).count + buffers_.unlitCount() + (edges ? buffers_.edgeCount() : 0);
 }
 
 void SceneView::drawLinear(const Camera& camera, double aspect, const FrameWindow& window,
@@ -130,7 +137,8 @@ DrawnPieces SceneView::drawPieces(const Camera& camera, double aspect, const Fra
     fn.DrawElements(kind, static_cast<GLsizei>(corners * (end - first)), GL_UNSIGNED_INT,
                     reinterpret_cast<const void*>(corners * first * sizeof(std::uint32_t)));
   };
-  const std::size_t triangles = buffers_.triangleCount(), faces = triangles + buffers_.unlitCount();
+  const SceneBuffers::Triangles lit = trianglesOf(options);
+  const std::size_t triangles = lit.count, faces = triangles + buffers_.unlitCount();
   // How many of those before `end` are still to be drawn.
   const auto left = [&](std::size_t end) {
     return std::min(pieces.most - drawn.count, std::min(end, pieces.end) - drawn.end);
@@ -140,12 +148,11 @@ DrawnPieces SceneView::drawPieces(const Camera& camera, double aspect, const Fra
     const gl::Program& program = by_pixel ? by_pixel_program_ : vertexProgram(mode);
     useDisplay(program, matrix, camera, options, element_light);
     fn.Uniform1i(program.uniform("edges"), 0);
-    const TrianglesInView seen =
-        buffers_.triangleBlocks().inView(matrix, homogeneousEye(camera, buffers_.bounds()),
-                                         {drawn.end, std::min(pieces.end, triangles)}, pieces.most);
+    const TrianglesInView seen = lit.blocks.inView(matrix, homogeneousEye(camera, buffers_.bounds()),
+                                                   {drawn.end, std::min(pieces.end, triangles)}, pieces.most);
     for (const TriangleRun& run : seen.runs) {
       fn.Uniform1i(program.uniform("first_triangle"), static_cast<GLint>(run.first));
-      draw(GL_TRIANGLES, buffers_.triangles(), 3, run.first, run.end);
+      draw(GL_TRIANGLES, lit.corners, 3, run.first, run.end);
     }
     drawn = {seen.end, seen.count};
   }

@@ -35,6 +35,7 @@ struct ViewOptions {
   std::string tone{kUsualTone};       ///< key of a tone curve
   bool ambient = true;                ///< add the ambient term
   int supersampling = 1;              ///< samples along a pixel's side
+  bool merged = false;                ///< blocks of cells as one, where that is at hand (beginMerged)
   /// Keeps this automatic exposure (what `draw` returned) instead of finding it again.
   std::optional<double> automatic_exposure;
   FalseColour false_colour;  ///< of the modes that show it
@@ -97,6 +98,8 @@ class SceneView {
   /// be uploaded as the rest.
   bool lacksMarks(const DisplayMode& mode) const { return buffers_.lacksMarks(mode); }
   void beginMarks(const MeshMarks& marks) { buffers_.beginMarks(marks); }
+  /// For ViewOptions::merged; to be uploaded as the rest, and not while a picture is half drawn.
+  void beginMerged(const MergedTriangles& merged) { buffers_.beginMerged(merged); }
 
   /// Draws into `viewport` of the bound framebuffer, in one rendering, and returns the automatic exposure:
   /// the factor from linear values to about 1 for white, without exposure_ev.
@@ -132,6 +135,8 @@ class SceneView {
                  const gl::Texture& element_light, std::size_t first, std::size_t count);
   void useFalseColour(const gl::Program& program, const FalseColour& how, double scale) const;
   const LinearTarget& target(LinearTarget& kept, int width, int height);
+  /// Those that the picture is drawn from.
+  SceneBuffers::Triangles trianglesOf(const ViewOptions& options) const;
 
   gl::Context& context_;
   SceneBuffers buffers_;

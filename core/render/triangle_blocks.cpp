@@ -14,8 +14,7 @@ namespace {
 constexpr float kFlat = 1e-4f;
 constexpr float kRounding = 1e-5f;
 
-glm::vec3 normalOf(const Mesh& mesh, std::size_t triangle) {
-  const std::uint32_t* corner = &mesh.triangle_vertices[3 * triangle];
+glm::vec3 normalOf(const Mesh& mesh, const std::uint32_t* corner) {
   const glm::dvec3 p(mesh.vertices[corner[0]].position), q(mesh.vertices[corner[1]].position),
       r(mesh.vertices[corner[2]].position);
   const glm::dvec3 n = glm::cross(q - p, r - p);
@@ -25,20 +24,20 @@ glm::vec3 normalOf(const Mesh& mesh, std::size_t triangle) {
 
 }  // namespace
 
-TriangleBlocks::TriangleBlocks(const Mesh& mesh) {
-  const std::size_t triangles = mesh.triangle_vertices.size() / 3;
+TriangleBlocks::TriangleBlocks(const Mesh& mesh, std::span<const std::uint32_t> corners) {
+  const std::size_t triangles = corners.size() / 3;
   blocks_.reserve(triangles / kTriangles + 1);
   for (std::size_t first = 0; first < triangles; first += kTriangles) {
     Block block{glm::vec3(std::numeric_limits<float>::max()), glm::vec3(-std::numeric_limits<float>::max()),
-                normalOf(mesh, first)};
+                normalOf(mesh, &corners[3 * first])};
     for (std::size_t t = first; t < std::min(first + kTriangles, triangles); ++t) {
       for (int k = 0; k < 3; ++k) {
-        const glm::vec3& p =
-            mesh.vertices[mesh.triangle_vertices[3 * t + static_cast<std::size_t>(k)]].position;
+        const glm::vec3& p = mesh.vertices[corners[3 * t + static_cast<std::size_t>(k)]].position;
         block.least = glm::min(block.least, p);
         block.most = glm::max(block.most, p);
       }
-      if (block.normal != glm::vec3(0.0f) && glm::distance(normalOf(mesh, t), block.normal) > kFlat)
+      if (block.normal != glm::vec3(0.0f) &&
+          glm::distance(normalOf(mesh, &corners[3 * t]), block.normal) > kFlat)
         block.normal = glm::vec3(0.0f);
     }
     blocks_.push_back(block);

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <span>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -28,7 +30,9 @@ class TriangleBlocks {
   static constexpr std::size_t kTriangles = 512;  ///< of a block
 
   TriangleBlocks() = default;
-  explicit TriangleBlocks(const Mesh& mesh);
+  explicit TriangleBlocks(const Mesh& mesh) : TriangleBlocks(mesh, mesh.triangle_vertices) {}
+  /// Of other triangles over its vertices, three `corners` each.
+  TriangleBlocks(const Mesh& mesh, std::span<const std::uint32_t> corners);
 
   /// Those of `among` that may be seen, at most so many: all but blocks that lie beside the view or behind
   /// the eye (homogeneousEye of the camera), and flat ones that face away.

@@ -117,6 +117,39 @@ TEST_F(SceneDisplays, ThePictureBeforeAndItsCameraStayUntilTheNextIsWhole) {
   EXPECT_EQ(display.shownCamera().eye, wanted_.camera.eye);
 }
 
+TEST_F(SceneDisplays, CoarsePicturesOfLargeMeshesHaveCellsMerged) {
+  const Scene scene = readObj(UNSHOT_SOURCE_DIR "/assets/cornell_box.obj");
+  auto snapshot = std::make_shared<Snapshot>();
+  snapshot->mesh = std::make_shared<Mesh>(buildMesh(scene, {40'000, {}, false}));
+  for (const Vertex& vertex : snapshot->mesh->vertices)
+    snapshot->irradiance.emplace_back(1 +
+                                      std::sin(vertex.position.x / 100) * std::sin(vertex.position.y / 90));
+  wanted_.divisor = 2;
+  wanted_.settings.view.automatic_exposure = 0.5;
+  SceneDisplay display(*context_);
+  display.setSnapshot(snapshot);
+  drawSlowly(display);
+  const std::vector<std::uint8_t> all = pixels(display);
+  const double began = wallSeconds();
+  // They are merged beside the window.
+  std::vector<std::uint8_t> merged = all;
+  while (merged == all && wallSeconds() < began + 60) {
+    wanted_.camera.eye.x += 1e-9;
+    drawSlowly(display);
+    merged = pixels(display);
+  }
+  EXPECT_NE(merged, all);
+  std::size_t far = 0;
+  for (std::size_t k = 0; k < all.size(); ++k) far += std::abs(all[k] - merged[k]) > 4;
+  EXPECT_LT(far, all.size() / 200) << "only along lines";
+  // At rest elements are as fine as they are.
+  wanted_.divisor = 1;
+  SceneDisplay other(*context_);
+  other.setSnapshot(snapshot);
+  for (SceneDisplay* each : {&display, &other}) each->draw(wanted_, -1, SceneDisplay::kAtOnce);
+  EXPECT_EQ(pixels(display), pixels(other));
+}
+
 TEST_F(SceneDisplays, CoarsePicturesShowTheSameAndAreNoMoreThanAsked) {
   SceneDisplay fine(*context_), coarse(*context_);
   for (SceneDisplay* display : {&fine, &coarse}) display->setSnapshot(snapshot_);
