@@ -35,9 +35,13 @@ class Merger {
       of_element_[next[mesh.triangle_element[t]]++] = t;
   }
 
+  struct Triangles {
+    std::vector<std::uint32_t> corners, elements;  // three a triangle; one
+  };
+
   /// In blocks of cells x cells.
-  std::vector<std::uint32_t> merged(std::uint32_t cells) {
-    std::vector<std::uint32_t> out;
+  Triangles merged(std::uint32_t cells) {
+    Triangles out;
     std::vector<char> done(mesh_.element_count, 0);
     for (const Side& side : mesh_.sides) {
       const Surface& surface = mesh_.surfaces[side.surface];
@@ -113,21 +117,24 @@ class Merger {
   }
 
   void addBlock(const Side& side, const Surface& surface, std::uint32_t i, std::uint32_t j,
-                std::uint32_t right, std::uint32_t top, std::vector<std::uint32_t>& out) const {
+                std::uint32_t right, std::uint32_t top, Triangles& out) const {
     const auto cell = [&](std::uint32_t x, std::uint32_t y) { return corners_[y * surface.nu + x]; };
     const Corners ring{cell(i, j)[0], cell(right - 1, j)[1], cell(right - 1, top - 1)[2],
                        cell(i, top - 1)[3]};
     for (const auto& [b, c] : {std::pair{1, 2}, std::pair{2, 3}}) {
       const std::size_t second = static_cast<std::size_t>(side.back ? c : b),
                         third = static_cast<std::size_t>(side.back ? b : c);
-      out.insert(out.end(), {ring[0], ring[second], ring[third]});
+      out.corners.insert(out.corners.end(), {ring[0], ring[second], ring[third]});
+      out.elements.push_back(side.first_element +
+                             mesh_.cells[surface.first_cell + j * surface.nu + i].element);
     }
   }
 
-  void addElement(std::uint32_t element, std::vector<std::uint32_t>& out) const {
+  void addElement(std::uint32_t element, Triangles& out) const {
     for (const std::uint32_t t : trianglesOf(element)) {
       const auto corner = mesh_.triangle_vertices.begin() + 3 * static_cast<std::ptrdiff_t>(t);
-      out.insert(out.end(), corner, corner + 3);
+      out.corners.insert(out.corners.end(), corner, corner + 3);
+      out.elements.push_back(element);
     }
   }
 
@@ -143,14 +150,18 @@ MergedTriangles mergeTriangles(const Mesh& mesh, std::size_t most, const CancelT
   MergedTriangles out;
   out.cut = mesh.cut;
   Merger merger(mesh, cancel);
-  std::vector<std::uint32_t> fewest = mesh.triangle_vertices;
-  for (std::uint32_t cells = 2; cells <= kMostCells && fewest.size() > 3 * most; cells *= 2) {
-    std::vector<std::uint32_t> merged = merger.merged(cells);
-    if (merged.size() < fewest.size()) fewest = std::move(merged);
+  Merger::Triangles fewest;
+  std::size_t count = mesh.triangle_element.size();
+  for (std::uint32_t cells = 2; cells <= kMostCells && count > most; cells *= 2) {
+    Merger::Triangles merged = merger.merged(cells);
+    if (merged.elements.size() >= count) continue;
+    count = merged.elements.size();
+    fewest = std::move(merged);
   }
-  if (fewest.size() == mesh.triangle_vertices.size()) return out;
-  out.blocks = TriangleBlocks(mesh, fewest);
-  out.corners = std::make_shared<const std::vector<std::uint32_t>>(std::move(fewest));
+  if (fewest.elements.empty()) return out;
+  out.blocks = TriangleBlocks(mesh, fewest.corners);
+  out.corners = std::make_shared<const std::vector<std::uint32_t>>(std::move(fewest.corners));
+  out.elements = std::make_shared<const std::vector<std::uint32_t>>(std::move(fewest.elements));
   return out;
 }
 

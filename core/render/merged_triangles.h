@@ -17,6 +17,8 @@ struct MergedTriangles {
   std::uint64_t cut = 0;  ///< Mesh::cut
   /// In Mesh::vertices, three a triangle, wound as those of the mesh; null where they would be no fewer.
   std::shared_ptr<const std::vector<std::uint32_t>> corners;
+  /// The element that each triangle stands for, or one of those; null where corners are.
+  std::shared_ptr<const std::vector<std::uint32_t>> elements;
   TriangleBlocks blocks;  ///< of these
 };
 

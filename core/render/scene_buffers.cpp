@@ -106,12 +106,14 @@ SceneBuffers::SceneBuffers(gl::Context& context)
       unlit_(context),
       sides_(context),
       triangle_elements_(context),
+      merged_elements_(context),
       element_irradiance_(context),
       element_direct_(context),
       element_bounce_(context),
       element_colours_(context),
       sides_texture_(context),
       triangle_elements_texture_(context),
+      merged_elements_texture_(context),
       element_irradiance_texture_(context),
       element_direct_texture_(context),
       element_bounce_texture_(context),
@@ -345,6 +347,8 @@ void SceneBuffers::beginMarks(const MeshMarks& marks) {
 void SceneBuffers::beginMerged(const MergedTriangles& merged) {
   if (!mesh_ || merged.cut != mesh_->cut || !merged.corners || hasMerged()) return;
   sendAll(mesh_uploads_, merged_, merged.corners);
+  sendAll(mesh_uploads_, merged_elements_, merged.elements);
+  attachTexels(context_.functions(), merged_elements_texture_, GL_R32UI, merged_elements_);
   merged_blocks_ = merged.blocks;
   merged_count_ = merged.corners->size() / 3;
 }

@@ -62,18 +62,21 @@ class SceneBuffers {
   double referenceMean() const { return reference_light_ ? reference_light_->mean : 0; }
   struct Triangles {
     const gl::Buffer& corners;
+    const gl::Texture& elements;
     const TriangleBlocks& blocks;
     std::size_t count;
   };
   Triangles triangles() const {
-    return {triangles_, triangle_blocks_, static_cast<std::size_t>(triangle_index_count_) / 3};
+    return {triangles_, triangle_elements_texture_, triangle_blocks_,
+            static_cast<std::size_t>(triangle_index_count_) / 3};
   }
-  Triangles mergedTriangles() const { return {merged_, merged_blocks_, merged_count_}; }
+  Triangles mergedTriangles() const {
+    return {merged_, merged_elements_texture_, merged_blocks_, merged_count_};
+  }
   const gl::Buffer& edges() const { return edges_; }
   std::size_t unlitCount() const { return unlit_corners_ / 3; }  ///< triangles of bindUnlit()
   std::size_t edgeCount() const { return static_cast<std::size_t>(edge_index_count_) / 2; }
   const gl::Texture& sides() const { return sides_texture_; }
-  const gl::Texture& triangleElements() const { return triangle_elements_texture_; }
 
  private:
   using SharedField = std::shared_ptr<const std::vector<glm::vec3>>;
@@ -111,10 +114,10 @@ class SceneBuffers {
       reference_, given_;
   TriangleBlocks triangle_blocks_, merged_blocks_;
   gl::Buffer triangles_, merged_, edges_, unlit_;
-  gl::Buffer sides_, triangle_elements_, element_irradiance_, element_direct_, element_bounce_,
-      element_colours_;
-  gl::Texture sides_texture_, triangle_elements_texture_, element_irradiance_texture_,
-      element_direct_texture_, element_bounce_texture_, element_colours_texture_;
+  gl::Buffer sides_, triangle_elements_, merged_elements_, element_irradiance_, element_direct_,
+      element_bounce_, element_colours_;
+  gl::Texture sides_texture_, triangle_elements_texture_, merged_elements_texture_,
+      element_irradiance_texture_, element_direct_texture_, element_bounce_texture_, element_colours_texture_;
   GLsizei triangle_index_count_ = 0;
   GLsizei edge_index_count_ = 0;
   std::size_t merged_count_ = 0, unlit_corners_ = 0;

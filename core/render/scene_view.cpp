@@ -69,10 +69,7 @@ const LinearTarget& SceneView::target(LinearTarget& kept, int width, int height)
 }
 
 SceneBuffers::Triangles SceneView::trianglesOf(const ViewOptions& options) const {
-  const DisplayMode& mode = displayMode(options.display);
-  // Elements are shown as they are.
-  const bool merged = options.merged && buffers_.hasMerged() && !mode.per_element && !mode.edges;
-  return merged ? buffers_.mergedTriangles() : buffers_.triangles();
+  return options.merged && buffers_.hasMerged() ? buffers_.mergedTriangles() : buffers_.triangles();
 }
 
 std::size_t SceneView::pieceCount(const ViewOptions& options, bool with_edges) {
@@ -89,7 +86,8 @@ void SceneView::drawLinear(const Camera& camera, double aspect, const FrameWindo
 }
 
 void SceneView::useDisplay(const gl::Program& program, const glm::mat4& matrix, const Camera& camera,
-                           const ViewOptions& options, const gl::Texture& element_light) const {
+                           const ViewOptions& options, const gl::Texture& triangle_elements,
+                           const gl::Texture& element_light) const {
   const gl::Functions& fn = context_.functions();
   const DisplayMode& mode = displayMode(options.display);
   program.use();
@@ -104,7 +102,7 @@ void SceneView::useDisplay(const gl::Program& program, const glm::mat4& matrix, 
   fn.Uniform1i(program.uniform("quantity"), static_cast<int>(mode.quantity));
   fn.Uniform1i(program.uniform("per_element"), mode.per_element);
   bindTexture(fn, program, "sides", 0, GL_TEXTURE_BUFFER, buffers_.sides().id());
-  bindTexture(fn, program, "triangle_elements", 1, GL_TEXTURE_BUFFER, buffers_.triangleElements().id());
+  bindTexture(fn, program, "triangle_elements", 1, GL_TEXTURE_BUFFER, triangle_elements.id());
   bindTexture(fn, program, "element_irradiance", 2, GL_TEXTURE_BUFFER, element_light.id());
   fn.Uniform1i(program.uniform("diverging"), mode.diverging);
   if (mode.quantity == Quantity::kDifference) {
@@ -146,7 +144,7 @@ DrawnPieces SceneView::drawPieces(const Camera& camera, double aspect, const Fra
   if (drawn.end < triangles) {
     const bool by_pixel = mode.per_element || buffers_.hasField(mode.quantity);
     const gl::Program& program = by_pixel ? by_pixel_program_ : vertexProgram(mode);
-    useDisplay(program, matrix, camera, options, element_light);
+    useDisplay(program, matrix, camera, options, lit.elements, element_light);
     fn.Uniform1i(program.uniform("edges"), 0);
     const TrianglesInView seen = lit.blocks.inView(matrix, homogeneousEye(camera, buffers_.bounds()),
                                                    {drawn.end, std::min(pieces.end, triangles)}, pieces.most);
@@ -164,7 +162,7 @@ DrawnPieces SceneView::drawPieces(const Camera& camera, double aspect, const Fra
   if (drawn.end >= faces && drawn.end < pieces.end) {
     const std::size_t first = drawn.end - faces, count = left(pieces.end);
     buffers_.bind(options.light, mode.quantity, options.reference, options.given(mode.quantity));
-    useDisplay(by_pixel_program_, matrix, camera, options, element_light);
+    useDisplay(by_pixel_program_, matrix, camera, options, lit.elements, element_light);
     fn.Uniform1i(by_pixel_program_.uniform("edges"), 1);
     fn.Enable(GL_CLIP_DISTANCE0);
     draw(GL_LINES, buffers_.edges(), 2, first, first + count);
@@ -181,7 +179,7 @@ void SceneView::drawUnlit(const glm::mat4& matrix, const Camera& camera, const V
   const gl::Functions& fn = context_.functions();
   const DisplayMode& mode = displayMode(options.display);
   const gl::Program& program = buffers_.hasField(mode.quantity) ? by_pixel_program_ : vertexProgram(mode);
-  useDisplay(program, matrix, camera, options, element_light);
+  useDisplay(program, matrix, camera, options, buffers_.triangles().elements, element_light);
   fn.Uniform1i(program.uniform("edges"), 0);
   fn.Uniform1i(program.uniform("per_element"), 0);
   buffers_.bindUnlit();

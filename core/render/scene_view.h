@@ -129,7 +129,8 @@ class SceneView {
 
  private:
   void useDisplay(const gl::Program& program, const glm::mat4& matrix, const Camera& camera,
-                  const ViewOptions& options, const gl::Texture& element_light) const;
+                  const ViewOptions& options, const gl::Texture& triangle_elements,
+                  const gl::Texture& element_light) const;
   /// Triangles of surfaces without a lit side.
   void drawUnlit(const glm::mat4& matrix, const Camera& camera, const ViewOptions& options,
                  const gl::Texture& element_light, std::size_t first, std::size_t count);

@@ -59,6 +59,14 @@ TEST(MergedTriangles, CoverWhatTheMeshCoversFromTheSameSide) {
     ASSERT_TRUE(merged.corners);
     EXPECT_EQ(merged.cut, mesh.cut);
     EXPECT_LT(merged.corners->size() / 3, triangles / 2);
+    ASSERT_EQ(merged.elements->size(), merged.corners->size() / 3);
+    for (std::size_t t = 0; t < merged.elements->size(); ++t) {
+      const Surface& surface = mesh.surfaces[mesh.sides[mesh.element_side[(*merged.elements)[t]]].surface];
+      const glm::dvec3 corner(mesh.vertices[(*merged.corners)[3 * t]].position);
+      EXPECT_LE(std::abs(glm::dot(corner - surface.origin, surface.normal)),
+                1e-6 * glm::length(mesh.bounds_max - mesh.bounds_min))
+          << "an element of another surface";
+    }
     const auto all = vectorAreas(mesh, mesh.triangle_vertices), few = vectorAreas(mesh, *merged.corners);
     // Positions are in single precision.
     for (std::size_t c = 0; c < all.size(); ++c)
