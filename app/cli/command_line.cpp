@@ -60,6 +60,10 @@ class HelpFormatter : public CLI::Formatter {
     if (app->get_parent()) return CLI::Formatter::make_usage(app, name);
     return "Usage: unshot [SCENE.obj]\n       unshot COMMAND [options]\n";
   }
+  // What excludes what stands in the words on it.
+  std::string make_option_opts(const CLI::Option* option) const override {
+    return option->get_items_expected_max() == 0 ? "" : CLI::Formatter::make_option_opts(option);
+  }
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
     return CLI::detail::find_and_replace(CLI::Formatter::make_help(app, name, mode), "\n\n\n", "\n\n");
   }

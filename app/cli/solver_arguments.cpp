@@ -101,7 +101,7 @@ void SolverArguments::addPlan(Command& command) {
                 }
                 return {};
               });
-  command.flag("--do-all", do_all_, "Do all of it but shooters");
+  command.flag("--do-all", do_all_, "Do all of it but shooters (not beside --do)");
   command.exclude("--do", "--do-all");
 }
 

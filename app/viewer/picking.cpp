@@ -189,9 +189,11 @@ void Picking::follow(const LaneState& state) {
   } else if (picked_ && other_facts) {
     picked_->decisions = decisionsFor(mesh, picked_->pick, facts_->plan);
   }
-  for (PinnedProbe& pinned : pinned_) {
-    if (another_cut) pinned.place = placeProbes(mesh, std::span(&pinned.probe, 1)).front();
-  }
+  if (!another_cut || pinned_.empty()) return;
+  std::vector<Probe> probes;
+  for (const PinnedProbe& pinned : pinned_) probes.push_back(pinned.probe);
+  const std::vector<std::optional<ProbePlace>> places = placeProbes(mesh, probes);
+  for (std::size_t k = 0; k < pinned_.size(); ++k) pinned_[k].place = places[k];
 }
 
 /// What is picked, on the state's mesh.

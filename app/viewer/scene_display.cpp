@@ -120,7 +120,8 @@ bool SceneDisplay::marksStand(const Wanted& wanted) {
   return true;
 }
 
-/// Of a large mesh, fewer triangles for coarse pictures, once per mesh. Those before them have all.
+/// Of a large mesh, fewer triangles for coarse pictures, once per mesh, where a CPU draws. Before they are
+/// there, coarse pictures have all.
 void SceneDisplay::seekMerged() {
   if (!snapshot_) return;
   const std::shared_ptr<const Mesh>& mesh = snapshot_->mesh;
@@ -205,7 +206,7 @@ bool SceneDisplay::draw(const Wanted& wanted, double seconds, double deadline) {
   }
   glide_seconds_ = seconds < 0 || glide_seconds_ < 0 ? -1 : glide_seconds_ + seconds;
   const StateGuard guard(context_.functions());
-  if (!making_ && now->divisor > 1) seekMerged();
+  if (!making_ && !context_.info().hardware) seekMerged();
   if (!upload(deadline)) return true;
   if (!making_) begin(*now);
   deadline = extended(deadline);

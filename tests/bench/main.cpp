@@ -18,8 +18,8 @@
 
 namespace {
 
-// Elements for about 10,000, 100,000 and 1,000,000 triangles.
-const std::vector<std::uint64_t> kFrameElements{4'700, 48'000, 490'000};
+// Elements for about 10,000, 100,000 and 1,000,000 triangles, and 100,000 elements.
+const std::vector<std::uint64_t> kFrameElements{4'700, 48'000, 100'000, 490'000};
 
 void printPictures(bool quick) {
   if (quick) {

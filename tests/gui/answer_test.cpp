@@ -207,7 +207,7 @@ TEST_P(WindowAnswers, SoonWhileItSolves) {
 // A program with sanitizers is too slow for more.
 std::vector<Busy> busy() {
   if (testing_support::kSanitized) return {{"Few", "2000", nullptr, 5}};
-  return {{"Many", "100000", nullptr, 0.5}, {"Most", "490000", nullptr, 1}, {"Race", "48000", "jacobi", 0.5}};
+  return {{"Many", "100000", nullptr, 0.2}, {"Most", "490000", nullptr, 1}, {"Race", "48000", "jacobi", 0.5}};
 }
 
 INSTANTIATE_TEST_SUITE_P(Gui, WindowAnswers, testing::ValuesIn(busy()),
