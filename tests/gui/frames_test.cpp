@@ -39,6 +39,8 @@ class ViewerFrames : public testing::Test {
 };
 
 TEST_F(ViewerFrames, AnswerWhileThePictureIsMade) {
+  live_->perform("display", "mesh");  // all edges of all elements take long, in coarse pictures too
+  ASSERT_TRUE(live_.until([this] { return live_->nextFrame(0) > 1e30; }));
   const glm::dvec3 before = live_->shownCamera().eye;
   live_->navigator().orbit({40, 0}, 240);
   live_->input();
