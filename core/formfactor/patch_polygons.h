@@ -24,6 +24,10 @@ class PatchPolygons {
   /// The same but for FactorPolygon::quick.
   double quickFactor(std::uint32_t q, const glm::dvec3& point, const glm::dvec3& normal,
                      std::vector<glm::dvec3>& scratch) const;
+  /// Whether these can be other than 0.
+  bool faces(std::uint32_t q, const glm::dvec3& point, const glm::dvec3& normal) const {
+    return isSeen(patches_[q], q, point, normal);
+  }
   /// kNone where it lies on several surfaces.
   std::uint32_t surface(std::uint32_t q) const { return patches_[q].surface; }
   /// Its pieces, or itself where it is a rectangle.

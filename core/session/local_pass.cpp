@@ -190,7 +190,7 @@ void LocalPass::find(std::uint32_t q, Hand& hand) const {
 bool LocalPass::look(const ReceiverView& view, std::uint32_t q, std::vector<Look>& out,
                      std::vector<glm::dvec3>& scratch) const {
   if (mesh_.sides[view.side].surface == polygons_.surface(q) ||
-      polygons_.quickFactor(q, view.position, view.normal, scratch) == 0)
+      !polygons_.faces(q, view.position, view.normal))
     return false;
   const glm::dvec3& normal = mesh_.sides[mesh_.patch_side[q]].normal;
   const glm::dvec3 eye = rays_ ? rays_->rays().lifted(view.position, view.normal) : view.position;

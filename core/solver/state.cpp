@@ -19,6 +19,8 @@ RadiosityState::RadiosityState(const Transport& transport, std::vector<glm::dvec
       emission_(std::move(emission)),
       reflectance_(std::move(reflectance)),
       area_(transport.patchArea()) {
+  for (const PatchShare& share : transport.receivers().shares)
+    share_of_area_.push_back(share.area / area_[share.patch]);
   for (std::size_t q = 0; q < emission_.size(); ++q) emitted_power_ += area_[q] * sumOfChannels(emission_[q]);
   reset();
 }
@@ -103,9 +105,8 @@ void RadiosityState::receive(std::uint32_t q, const glm::dvec3& d, const Column&
       const auto received = k * sent;
       values_.irradiance[v] += received;
       for (std::uint32_t s = receivers.start[v]; s < receivers.start[v + 1]; ++s) {
-        const PatchShare& share = receivers.shares[s];
-        values_.unshot[share.patch] +=
-            share.area / area_[share.patch] * one(reflectance_[share.patch]) * received;
+        const std::uint32_t p = receivers.shares[s].patch;
+        values_.unshot[p] += share_of_area_[s] * one(reflectance_[p]) * received;
       }
     });
   };

@@ -105,6 +105,7 @@ class RadiosityState {
   const Transport& transport_;
   std::vector<glm::dvec3> emission_, reflectance_;
   std::vector<double> area_;
+  std::vector<double> share_of_area_;  // of its patch, one per PatchShare of the receivers
   double emitted_power_ = 0;
   bool one_channel_ = false;
   Values values_;
