@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "base/cross.h"
 
