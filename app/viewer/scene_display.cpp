@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <utility>
 
 #include "base/clock.h"
@@ -134,7 +135,11 @@ void SceneDisplay::seekMerged() {
     };
     merging_ = std::make_unique<Background<MergedTriangles>>(merge, nullptr);
   }
-  if (merging_ && merging_->ready()) view_.beginMerged(std::exchange(merging_, nullptr)->take());
+  if (!merging_ || !merging_->ready()) return;
+  try {
+    view_.beginMerged(std::exchange(merging_, nullptr)->take());
+  } catch (const std::bad_alloc&) {  // there is no room for what is only sooner
+  }
 }
 
 /// What is drawn while marks are being found: the display before, where the camera has moved. None: the
