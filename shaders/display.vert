@@ -9,8 +9,7 @@ layout(location = 4) in vec3 ambient;
 
 uniform mat4 view_projection;
 uniform int quantity;          // enum Quantity, but for unshot light
-uniform float ambient_weight;   // 0 or 1
-uniform float emission_weight;  // the same
+uniform float emission_weight;  // 0 or 1
 uniform samplerBuffer sides;   // per side: reflectance, emission
 
 out vec4 shown;  // the quantity, and the class of the pixel
@@ -19,7 +18,7 @@ void main() {
   gl_Position = view_projection * vec4(position, 1.0);
   vec3 reflectance = texelFetch(sides, 2 * int(side)).rgb;
   vec3 emission = texelFetch(sides, 2 * int(side) + 1).rgb;
-  vec3 received = irradiance + ambient_weight * ambient;
+  vec3 received = irradiance + ambient;
   if (quantity != 3) emission *= emission_weight;
   shown = vec4(emission + reflectance * received, 1.0);
   if (quantity == 0 && any(greaterThan(emission, vec3(0.0)))) shown.a = 2.0;

@@ -12,8 +12,7 @@ uniform mat4 view_projection;
 uniform vec4 eye;                 // homogeneous: at infinity where sights are parallel
 uniform int quantity;             // enum Quantity
 uniform bool edges;               // lines: pulled to the eye a little, clipped where their side faces away
-uniform float ambient_weight;     // 0 or 1
-uniform float emission_weight;    // the same
+uniform float emission_weight;    // 0 or 1
 uniform samplerBuffer sides;      // per side: reflectance, emission
 
 out vec3 vertex_irradiance;
@@ -31,7 +30,7 @@ void main() {
   gl_Position = view_projection * vec4(edges ? position + pull * to_eye : position, 1.0);
   gl_ClipDistance[0] = dot(normal, to_eye);
   vertex_irradiance = irradiance;
-  vertex_ambient = ambient_weight * ambient;
+  vertex_ambient = ambient;
   vertex_extra = quantity == 8 ? vec3(0.45 + 0.55 * abs(cosine)) : extra;  // 8: the shading of patches
   reflectance = texelFetch(sides, 2 * int(side)).rgb;
   emission = (quantity == 3 ? 1.0 : emission_weight) * texelFetch(sides, 2 * int(side) + 1).rgb;

@@ -212,6 +212,7 @@ bool SceneDisplay::draw(const Wanted& wanted, double seconds, double deadline) {
   glide_seconds_ = seconds < 0 || glide_seconds_ < 0 ? -1 : glide_seconds_ + seconds;
   const StateGuard guard(context_.functions());
   if (!making_ && !context_.info().hardware) seekMerged();
+  if (!making_) view_.beginLight(viewOf(*now));
   if (!upload(deadline)) return true;
   if (!making_) begin(*now);
   deadline = extended(deadline);

@@ -24,17 +24,10 @@ glm::vec4 finiteTexel(const glm::dvec3& v) {
   return {finiteValue(v.x), finiteValue(v.y), finiteValue(v.z), 0.0f};
 }
 
-void allocate(const gl::Functions& fn, const gl::Buffer& buffer, std::size_t bytes, GLenum usage) {
-  // The binding point says nothing about the use; this one disturbs no vertex array.
-  fn.BindBuffer(GL_COPY_WRITE_BUFFER, buffer.id());
-  fn.BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, usage);
-  fn.BindBuffer(GL_COPY_WRITE_BUFFER, 0);
-}
-
 // Room for values that do not change, and their way there.
 template <class T>
 void sendAll(Uploads& uploads, const gl::Buffer& buffer, std::shared_ptr<const std::vector<T>> values) {
-  allocate(buffer.fn(), buffer, values->size() * sizeof(T), GL_STATIC_DRAW);
+  allocate(buffer, values->size() * sizeof(T), GL_STATIC_DRAW);
   const std::size_t count = values->size();
   uploads.add<T>(buffer, count, [values = std::move(values)](std::size_t first, std::size_t n, T* out) {
     std::copy_n(values->data() + first, n, out);
@@ -44,7 +37,7 @@ void sendAll(Uploads& uploads, const gl::Buffer& buffer, std::shared_ptr<const s
 // A field of `count` values at once: what is shown on demand.
 template <class Value>
 void send(const gl::Buffer& buffer, std::shared_ptr<const std::vector<glm::vec3>> field, std::size_t count) {
-  allocate(buffer.fn(), buffer, std::max<std::size_t>(count, 1) * sizeof(Value), GL_DYNAMIC_DRAW);
+  allocate(buffer, std::max<std::size_t>(count, 1) * sizeof(Value), GL_DYNAMIC_DRAW);
   Uploads uploads;
   uploads.add<Value>(buffer, count, finiteValues<Value>(std::move(field)));
   uploads.some(uploads.bytes());
@@ -67,13 +60,6 @@ void attachVertices(const gl::Functions& fn, const gl::Buffer& vertices) {
                           reinterpret_cast<const void*>(offsetof(GpuVertex, side)));
 }
 
-void attachTexels(const gl::Functions& fn, const gl::Texture& texture, GLenum format,
-                  const gl::Buffer& buffer) {
-  fn.BindTexture(GL_TEXTURE_BUFFER, texture.id());
-  fn.TexBuffer(GL_TEXTURE_BUFFER, format, buffer.id());
-  fn.BindTexture(GL_TEXTURE_BUFFER, 0);
-}
-
 void checkTexels(const gl::Functions& fn, std::size_t texels) {
   GLint largest = 0;
   fn.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &largest);
@@ -88,15 +74,10 @@ void checkTexels(const gl::Functions& fn, std::size_t texels) {
 
 SceneBuffers::SceneBuffers(gl::Context& context)
     : context_(context),
+      fields_(context),
       vertex_array_(context),
       unlit_vertex_array_(context),
       vertices_(context),
-      irradiance_(context),
-      direct_(context),
-      ambient_(context),
-      unshot_(context),
-      bounces_(context),
-      residual_(context),
       bounce_irradiance_(context),
       reference_(context),
       given_(context),
@@ -107,74 +88,86 @@ SceneBuffers::SceneBuffers(gl::Context& context)
       sides_(context),
       triangle_elements_(context),
       merged_elements_(context),
-      element_irradiance_(context),
-      element_direct_(context),
       element_bounce_(context),
       element_colours_(context),
       sides_texture_(context),
       triangle_elements_texture_(context),
       merged_elements_texture_(context),
-      element_irradiance_texture_(context),
-      element_direct_texture_(context),
       element_bounce_texture_(context),
       element_colours_texture_(context) {}
 
-void SceneBuffers::begin(const std::shared_ptr<const Snapshot>& snapshot) {
-  // Where fields were given up half way, it is not known what is there.
-  bool all = !field_uploads_.done();
-  field_uploads_.clear();
+void SceneBuffers::begin(std::shared_ptr<const Snapshot> snapshot) {
+  const bool same_direct = fields_.snapshot() && fields_.snapshot()->direct == snapshot->direct;
   if (mesh_ && snapshot->mesh->cut == mesh_->cut) {
+    if (snapshot->mesh != mesh_ || !same_direct) direct_reference_.reset();
     if (snapshot->mesh != mesh_) beginSides(snapshot->mesh, unlitSurfaces(*snapshot->mesh));
   } else {
     beginMesh(snapshot->mesh);
     bounce_field_.reset();
+    direct_reference_.reset();
     reference_light_.reset();
     given_uploaded_ = false;
-    all = true;
   }
-  const auto own = [&](const std::vector<glm::vec3>& field) {
-    return std::shared_ptr<const std::vector<glm::vec3>>(snapshot, &field);
-  };
-  const std::size_t vertices = mesh_->vertices.size(), elements = mesh_->element_count;
-  field_uploads_.add<glm::vec3>(irradiance_, vertices, finiteValues<glm::vec3>(own(snapshot->irradiance)));
-  field_uploads_.add<glm::vec3>(ambient_, vertices, finiteValues<glm::vec3>(own(snapshot->ambient)));
-  field_uploads_.add<glm::vec3>(unshot_, vertices, finiteValues<glm::vec3>(own(snapshot->unshot)));
-  field_uploads_.add<glm::vec4>(element_irradiance_, elements,
-                                finiteValues<glm::vec4>(own(snapshot->element_irradiance)));
-  const auto shared = [&]<class Value>(const gl::Buffer& buffer, std::size_t count, SharedField& uploaded,
-                                       const SharedField& field, Value) {
-    if (all || uploaded != field) field_uploads_.add<Value>(buffer, count, finiteValues<Value>(field));
-    uploaded = field;
-  };
-  if (all || direct_field_ != snapshot->direct) direct_reference_.reset();
-  bounce_light_ = snapshot->bounce_light;
-  sky_ = snapshot->sky;
-  shared(direct_, vertices, direct_field_, snapshot->direct, glm::vec3());
-  shared(element_direct_, elements, element_direct_field_, snapshot->element_direct, glm::vec4());
-  shared(bounces_, vertices, bounces_field_, snapshot->bounces, glm::vec3());
-  shared(residual_, vertices, residual_field_, snapshot->residual, glm::vec3());
+  fields_.setSnapshot(std::move(snapshot));
+}
+
+std::optional<LightField> SceneBuffers::fieldOf(Quantity quantity) {
+  if (quantity == Quantity::kUnshot) return LightField::kUnshot;
+  if (quantity == Quantity::kBounces) return LightField::kBounces;
+  if (quantity == Quantity::kResidual) return LightField::kResidual;
+  return std::nullopt;
+}
+
+bool SceneBuffers::readsLight(Quantity quantity) {
+  return quantity == Quantity::kRadiosity || quantity == Quantity::kIrradiance ||
+         quantity == Quantity::kDifference;
+}
+
+void SceneBuffers::beginFields(const Reading& reading) {
+  if (!mesh_) return;
+  LightFieldSet wanted;
+  if (const auto field = fieldOf(reading.mode.quantity)) wanted.add(*field);
+  if (reading.ambient) wanted.add(LightField::kAmbient);
+  if (readsLight(reading.mode.quantity) && !bounceSum(reading.light)) {
+    const bool direct = !reading.light.indirect;
+    if (reading.mode.per_element) {
+      wanted.add(direct ? LightField::kElementDirect : LightField::kElementIrradiance);
+    } else {
+      wanted.add(direct ? LightField::kDirect : LightField::kIrradiance);
+    }
+  }
+  fields_.begin(wanted);
 }
 
 void SceneBuffers::upload(std::size_t bytes) {
   const std::size_t mesh_bytes = std::min(bytes, mesh_uploads_.bytes());
   mesh_uploads_.some(mesh_bytes);
-  if (mesh_uploads_.done()) field_uploads_.some(bytes - mesh_bytes);
+  if (mesh_uploads_.done()) fields_.upload(bytes - mesh_bytes);
 }
 
-SceneBuffers::LightBuffers SceneBuffers::lightOf(const LightChoice& choice) {
-  if (!choice.indirect) return {direct_, element_direct_texture_};
-  const std::shared_ptr<const MeshField> sum = bounceField(bounce_light_, {true, choice.bounces, false});
-  if (!sum) return {irradiance_, element_irradiance_texture_};
-  if (sum != bounce_field_ || choice.alone != bounce_alone_) {
-    const std::shared_ptr<const MeshField> field = choice.alone ? bounceField(bounce_light_, choice) : sum;
-    const gl::Functions& fn = context_.functions();
-    send<glm::vec3>(bounce_irradiance_, SharedField(field, &field->vertices), mesh_->vertices.size());
-    send<glm::vec4>(element_bounce_, SharedField(field, &field->elements), mesh_->element_count);
-    attachTexels(fn, element_bounce_texture_, GL_RGBA32F, element_bounce_);
-    bounce_field_ = sum;
-    bounce_alone_ = choice.alone;
-  }
-  return {bounce_irradiance_, element_bounce_texture_};
+void SceneBuffers::complete(const Reading& reading) {
+  if (!mesh_) return;
+  if (lacksMarks(reading.mode)) beginMarks(findMeshMarks(*mesh_, reading.mode));
+  beginFields(reading);
+  upload(uploadBytes());
+}
+
+/// The light of the bounces that are meant and all before; null where all light is, or none of them is known.
+std::shared_ptr<const MeshField> SceneBuffers::bounceSum(const LightChoice& choice) const {
+  if (!choice.indirect) return nullptr;
+  return bounceField(fields_.snapshot()->bounce_light, {true, choice.bounces, false});
+}
+
+/// What is read in place of the fields of the snapshot.
+void SceneBuffers::useBounces(const LightChoice& choice, const std::shared_ptr<const MeshField>& sum) {
+  if (sum == bounce_field_ && choice.alone == bounce_alone_) return;
+  const std::shared_ptr<const MeshField> field =
+      choice.alone ? bounceField(fields_.snapshot()->bounce_light, choice) : sum;
+  send<glm::vec3>(bounce_irradiance_, SharedField(field, &field->vertices), mesh_->vertices.size());
+  send<glm::vec4>(element_bounce_, SharedField(field, &field->elements), mesh_->element_count);
+  attachTexels(element_bounce_texture_, GL_RGBA32F, element_bounce_);
+  bounce_field_ = sum;
+  bounce_alone_ = choice.alone;
 }
 
 void SceneBuffers::useReference(const std::shared_ptr<const ReferenceLight>& reference) {
@@ -182,7 +175,7 @@ void SceneBuffers::useReference(const std::shared_ptr<const ReferenceLight>& ref
   if (!fits && !direct_reference_) {
     Snapshot direct;
     direct.mesh = mesh_;
-    direct.direct = direct_field_;
+    direct.direct = fields_.snapshot()->direct;
     direct_reference_ = std::make_shared<const ReferenceLight>(
         referenceLight(direct, {false, {}, false}, "direct light alone"));
   }
@@ -201,28 +194,36 @@ void SceneBuffers::useGiven(const std::shared_ptr<const VertexField>& given) {
   given_uploaded_ = true;
 }
 
-const gl::Buffer* SceneBuffers::fieldOf(Quantity quantity) const {
-  if (quantity == Quantity::kUnshot) return &unshot_;
-  if (quantity == Quantity::kBounces) return &bounces_;
+/// What the quantity shows besides the light; null where that is all.
+const gl::Buffer* SceneBuffers::extraOf(Quantity quantity) const {
+  if (const auto field = fieldOf(quantity)) return &fields_.vertices(*field);
   if (quantity == Quantity::kDifference) return &reference_;
-  if (quantity == Quantity::kFormFactors || quantity == Quantity::kLastShot) return &given_;
-  return quantity == Quantity::kResidual ? &residual_ : nullptr;
+  return quantity == Quantity::kFormFactors || quantity == Quantity::kLastShot ? &given_ : nullptr;
 }
 
-// The light that is shown is a matter of which buffer is read.
-const gl::Texture& SceneBuffers::bind(const LightChoice& choice, Quantity quantity,
-                                      const std::shared_ptr<const ReferenceLight>& reference,
-                                      const std::shared_ptr<const VertexField>& given) {
+// What is shown is a matter of which buffer is read; what is not read is 0.
+const gl::Texture& SceneBuffers::bind(const Reading& reading) {
   const gl::Functions& fn = context_.functions();
-  const LightBuffers light = lightOf(choice);
-  if (quantity == Quantity::kDifference) useReference(reference);
-  if (fieldOf(quantity) == &given_) useGiven(given);
+  const Quantity quantity = reading.mode.quantity;
+  const std::shared_ptr<const MeshField> bounces = readsLight(quantity) ? bounceSum(reading.light) : nullptr;
+  if (bounces) useBounces(reading.light, bounces);
+  if (quantity == Quantity::kDifference) useReference(reading.reference);
+  if (extraOf(quantity) == &given_) useGiven(reading.given);
+  const bool direct = !reading.light.indirect;
   fn.BindVertexArray(vertex_array_.id());
-  attribute(fn, 3, light.vertices, sizeof(glm::vec3), 0);
-  if (const gl::Buffer* field = fieldOf(quantity)) attribute(fn, 5, *field, sizeof(glm::vec3), 0);
+  const auto attach = [&](GLuint location, const gl::Buffer* buffer) {
+    if (buffer) return attribute(fn, location, *buffer, sizeof(glm::vec3), 0);
+    fn.DisableVertexAttribArray(location);
+  };
+  const gl::Buffer& light =
+      bounces ? bounce_irradiance_ : fields_.vertices(direct ? LightField::kDirect : LightField::kIrradiance);
+  attach(3, readsLight(quantity) && !reading.mode.per_element ? &light : nullptr);
+  attach(4, reading.ambient ? &fields_.vertices(LightField::kAmbient) : nullptr);
+  attach(5, extraOf(quantity));
   fn.BindBuffer(GL_ARRAY_BUFFER, 0);
-  if (quantity != Quantity::kPatches) return light.elements;
-  return element_colours_texture_;
+  if (quantity == Quantity::kPatches) return element_colours_texture_;
+  if (bounces) return element_bounce_texture_;
+  return fields_.elements(direct ? LightField::kElementDirect : LightField::kElementIrradiance);
 }
 
 void SceneBuffers::beginMesh(const std::shared_ptr<const Mesh>& shared_mesh) {
@@ -248,13 +249,8 @@ void SceneBuffers::beginMesh(const std::shared_ptr<const Mesh>& shared_mesh) {
 
   beginSides(shared_mesh, unlit);
   sendAll(mesh_uploads_, triangle_elements_, own(mesh.triangle_element));
-  for (const gl::Buffer* field : {&element_irradiance_, &element_direct_}) {
-    allocate(fn, *field, std::max<std::size_t>(mesh.element_count, 1) * sizeof(glm::vec4), GL_DYNAMIC_DRAW);
-  }
-  attachTexels(fn, sides_texture_, GL_RGBA32F, sides_);
-  attachTexels(fn, triangle_elements_texture_, GL_R32UI, triangle_elements_);
-  attachTexels(fn, element_irradiance_texture_, GL_RGBA32F, element_irradiance_);
-  attachTexels(fn, element_direct_texture_, GL_RGBA32F, element_direct_);
+  attachTexels(sides_texture_, GL_RGBA32F, sides_);
+  attachTexels(triangle_elements_texture_, GL_R32UI, triangle_elements_);
 }
 
 // All that materials are to the picture.
@@ -279,7 +275,7 @@ void SceneBuffers::beginSides(const std::shared_ptr<const Mesh>& shared_mesh, co
 void SceneBuffers::beginVertices(const std::shared_ptr<const Mesh>& shared_mesh) {
   const gl::Functions& fn = context_.functions();
   const std::size_t vertices = shared_mesh->vertices.size();
-  allocate(fn, vertices_, vertices * sizeof(GpuVertex), GL_STATIC_DRAW);
+  allocate(vertices_, vertices * sizeof(GpuVertex), GL_STATIC_DRAW);
   mesh_uploads_.add<GpuVertex>(vertices_, vertices,
                                [shared_mesh](std::size_t first, std::size_t count, GpuVertex* out) {
                                  for (std::size_t k = 0; k < count; ++k) {
@@ -287,12 +283,8 @@ void SceneBuffers::beginVertices(const std::shared_ptr<const Mesh>& shared_mesh)
                                    out[k] = {v.position, v.normal, v.side};
                                  }
                                });
-  for (const gl::Buffer* field : {&irradiance_, &direct_, &ambient_, &unshot_, &bounces_, &residual_})
-    allocate(fn, *field, vertices * sizeof(glm::vec3), GL_DYNAMIC_DRAW);
   fn.BindVertexArray(vertex_array_.id());
   attachVertices(fn, vertices_);
-  attribute(fn, 4, ambient_, sizeof(glm::vec3), 0);
-  attribute(fn, 5, unshot_, sizeof(glm::vec3), 0);
   fn.BindBuffer(GL_ARRAY_BUFFER, 0);
   fn.BindVertexArray(0);
 }
@@ -331,15 +323,14 @@ void SceneBuffers::beginMarks(const MeshMarks& marks) {
   }
   if (marks.patch_colours && !has_patch_colours_) {
     const std::size_t elements = mesh_->element_count;
-    allocate(context_.functions(), element_colours_, std::max<std::size_t>(elements, 1) * sizeof(glm::vec4),
-             GL_STATIC_DRAW);
+    allocate(element_colours_, std::max<std::size_t>(elements, 1) * sizeof(glm::vec4), GL_STATIC_DRAW);
     mesh_uploads_.add<glm::vec4>(
         element_colours_, elements,
         [mesh = mesh_, colours = marks.patch_colours](std::size_t first, std::size_t count, glm::vec4* out) {
           for (std::size_t k = 0; k < count; ++k)
             out[k] = glm::vec4(kPatchPalette[(*colours)[mesh->element_patch[first + k]]], 0.0f);
         });
-    attachTexels(context_.functions(), element_colours_texture_, GL_RGBA32F, element_colours_);
+    attachTexels(element_colours_texture_, GL_RGBA32F, element_colours_);
     has_patch_colours_ = true;
   }
 }
@@ -348,15 +339,9 @@ void SceneBuffers::beginMerged(const MergedTriangles& merged) {
   if (!mesh_ || merged.cut != mesh_->cut || !merged.corners || hasMerged()) return;
   sendAll(mesh_uploads_, merged_, merged.corners);
   sendAll(mesh_uploads_, merged_elements_, merged.elements);
-  attachTexels(context_.functions(), merged_elements_texture_, GL_R32UI, merged_elements_);
+  attachTexels(merged_elements_texture_, GL_R32UI, merged_elements_);
   merged_blocks_ = merged.blocks;
   merged_count_ = merged.corners->size() / 3;
-}
-
-void SceneBuffers::completeMarks(const DisplayMode& mode) {
-  if (!lacksMarks(mode)) return;
-  beginMarks(findMeshMarks(*mesh_, mode));
-  mesh_uploads_.some(mesh_uploads_.bytes());
 }
 
 }  // namespace unshot

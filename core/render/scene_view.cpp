@@ -55,9 +55,16 @@ const gl::Program& SceneView::resolveProgram(const DisplayMode& mode, const std:
 }
 
 void SceneView::setSnapshot(const Snapshot& snapshot) {
-  // It is here for as long as the upload takes.
   beginSnapshot(std::shared_ptr<const Snapshot>(std::shared_ptr<void>(), &snapshot));
   upload(uploadBytes());
+}
+
+SceneBuffers::Reading SceneView::readingOf(const ViewOptions& options) {
+  const DisplayMode& mode = displayMode(options.display);
+  // The ambient term is no part of any solution, so that none is compared with it.
+  const bool lit = mode.quantity == Quantity::kRadiosity || mode.quantity == Quantity::kIrradiance;
+  return {mode, options.light, lit && options.ambient && options.light.all(), options.reference,
+          options.given(mode.quantity)};
 }
 
 const LinearTarget& SceneView::target(LinearTarget& kept, int width, int height) {
@@ -76,7 +83,7 @@ std::size_t SceneView::pieceCount(const ViewOptions& options, bool with_edges) {
   if (!buffers_.mesh()) return 0;
   const DisplayMode& mode = displayMode(options.display);
   const bool edges = with_edges && mode.edges;
-  if (edges) buffers_.completeMarks(mode);
+  if (edges) buffers_.complete(readingOf(options));
   return trianglesOf(options).count + buffers_.unlitCount() + (edges ? buffers_.edgeCount() : 0);
 }
 
@@ -92,12 +99,8 @@ void SceneView::useDisplay(const gl::Program& program, const glm::mat4& matrix, 
   const DisplayMode& mode = displayMode(options.display);
   program.use();
   const glm::vec4 eye = homogeneousEye(camera, buffers_.bounds());
-  // The ambient term is no part of any solution, so that none is compared with it.
-  const bool with_ambient = options.ambient && options.light.all() &&
-                            mode.quantity != Quantity::kDifference && mode.quantity != Quantity::kPatches;
   fn.UniformMatrix4fv(program.uniform("view_projection"), 1, GL_FALSE, glm::value_ptr(matrix));
   fn.Uniform4fv(program.uniform("eye"), 1, glm::value_ptr(eye));
-  fn.Uniform1f(program.uniform("ambient_weight"), with_ambient ? 1.0f : 0.0f);
   fn.Uniform1f(program.uniform("emission_weight"), options.light.oneBounce() ? 0.0f : 1.0f);
   fn.Uniform1i(program.uniform("quantity"), static_cast<int>(mode.quantity));
   fn.Uniform1i(program.uniform("per_element"), mode.per_element);
@@ -125,10 +128,10 @@ DrawnPieces SceneView::drawPieces(const Camera& camera, double aspect, const Fra
   DrawnPieces drawn{pieces.first, 0};
   if (!buffers_.mesh() || pieces.first >= pieces.end) return drawn;
 
-  if (mode.quantity == Quantity::kPatches) buffers_.completeMarks(mode);
+  const SceneBuffers::Reading reading = readingOf(options);
+  buffers_.complete(reading);
   const glm::mat4 matrix = viewProjection(camera, aspect, buffers_.bounds(), window, depth.range);
-  const gl::Texture& element_light =
-      buffers_.bind(options.light, mode.quantity, options.reference, options.given(mode.quantity));
+  const gl::Texture& element_light = buffers_.bind(reading);
   const auto draw = [&](GLenum kind, const gl::Buffer& indices, std::size_t corners, std::size_t first,
                         std::size_t end) {
     fn.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.id());
@@ -161,7 +164,7 @@ DrawnPieces SceneView::drawPieces(const Camera& camera, double aspect, const Fra
   }
   if (drawn.end >= faces && drawn.end < pieces.end) {
     const std::size_t first = drawn.end - faces, count = left(pieces.end);
-    buffers_.bind(options.light, mode.quantity, options.reference, options.given(mode.quantity));
+    buffers_.bind(reading);
     useDisplay(by_pixel_program_, matrix, camera, options, lit.elements, element_light);
     fn.Uniform1i(by_pixel_program_.uniform("edges"), 1);
     fn.Enable(GL_CLIP_DISTANCE0);

@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/tone.h"
@@ -83,13 +84,15 @@ class SceneView {
  public:
   explicit SceneView(gl::Context& context);
 
-  /// Uploads the state; geometry only when the mesh is another than before, direct light only when its field
-  /// is another object than before. Values that are not finite are drawn as 0. Throws Error kEnvironment
+  /// Uploads the mesh, where it is another than before. The state stays until it is drawn: a picture uploads
+  /// what it reads of the light, once. Values that are not finite are drawn as 0. Throws Error kEnvironment
   /// where the mesh is too large for the driver.
   void setSnapshot(const Snapshot& snapshot);
   /// The same in parts: begins it, giving up what is not yet done of the snapshot before. Nothing may be
   /// drawn until upload() has sent uploadBytes().
-  void beginSnapshot(const std::shared_ptr<const Snapshot>& snapshot) { buffers_.begin(snapshot); }
+  void beginSnapshot(std::shared_ptr<const Snapshot> snapshot) { buffers_.begin(std::move(snapshot)); }
+  /// Begins to upload what a picture reads of the light and is not there yet.
+  void beginLight(const ViewOptions& options) { buffers_.beginFields(readingOf(options)); }
   /// About so many more bytes.
   void upload(std::size_t bytes) { buffers_.upload(bytes); }
   std::size_t uploadBytes() const { return buffers_.uploadBytes(); }
@@ -128,6 +131,7 @@ class SceneView {
                const Viewport& viewport, int first_row = 0);
 
  private:
+  static SceneBuffers::Reading readingOf(const ViewOptions& options);
   void useDisplay(const gl::Program& program, const glm::mat4& matrix, const Camera& camera,
                   const ViewOptions& options, const gl::Texture& triangle_elements,
                   const gl::Texture& element_light) const;

@@ -11,6 +11,21 @@ constexpr double kLargestValue = 1e36;
 
 }  // namespace
 
+void allocate(const gl::Buffer& buffer, std::size_t bytes, GLenum usage) {
+  const gl::Functions& fn = buffer.fn();
+  // The binding point says nothing about the use; this one disturbs no vertex array.
+  fn.BindBuffer(GL_COPY_WRITE_BUFFER, buffer.id());
+  fn.BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, usage);
+  fn.BindBuffer(GL_COPY_WRITE_BUFFER, 0);
+}
+
+void attachTexels(const gl::Texture& texture, GLenum format, const gl::Buffer& buffer) {
+  const gl::Functions& fn = texture.fn();
+  fn.BindTexture(GL_TEXTURE_BUFFER, texture.id());
+  fn.TexBuffer(GL_TEXTURE_BUFFER, format, buffer.id());
+  fn.BindTexture(GL_TEXTURE_BUFFER, 0);
+}
+
 float finiteValue(double v) {
   return std::isfinite(v) ? static_cast<float>(std::clamp(v, -kLargestValue, kLargestValue)) : 0.0f;
 }

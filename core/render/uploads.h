@@ -12,6 +12,11 @@
 
 namespace unshot {
 
+/// Room for so many bytes, of which nothing is known yet.
+void allocate(const gl::Buffer& buffer, std::size_t bytes, GLenum usage);
+/// From now on the texture reads the buffer as texels of this format.
+void attachTexels(const gl::Texture& texture, GLenum format, const gl::Buffer& buffer);
+
 /// A line of uploads, done in the order in which they were added. All calls on the thread where the context
 /// of the buffers is current.
 class Uploads {

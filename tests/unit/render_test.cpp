@@ -303,7 +303,8 @@ TEST_P(Rendering, DrawsIntoThePartOfTheBoundFramebufferThatItIsGiven) {
   const std::array<GLfloat, 4> magenta = {1, 0, 1, 1};
   fn.ClearBufferfv(GL_COLOR, 0, magenta.data());
   SceneView view(*context_);
-  view.setSnapshot(syntheticRoom());
+  const Snapshot room = syntheticRoom();
+  view.setSnapshot(room);
   const Camera camera{{0, 1, 3}, {0, 1, 0}, {0, 1, 0}, 40};
   const double exposure = view.draw(camera, {}, {16, 8, 32, 32});
   EXPECT_GT(exposure, 0);
