@@ -29,17 +29,22 @@ FalseColour falseColourOf(const ViewOptions& options, const DisplayMode& mode) {
   return out;
 }
 
-SceneView::SceneView(gl::Context& context)
-    : context_(context),
-      buffers_(context),
-      display_program_(context, {"display.vert", "display.frag"}),
-      by_pixel_program_(context, {"display_by_pixel.vert", "display_by_pixel.frag"}),
-      no_attributes_(context) {}
+SceneView::SceneView(gl::Context& context) : context_(context), buffers_(context), no_attributes_(context) {}
+
+const gl::Program& SceneView::madeOnce(gl::Program& program,
+                                       std::initializer_list<std::string_view> shaders) {
+  if (!program) program = gl::Program(context_, shaders);
+  return program;
+}
 
 const gl::Program& SceneView::vertexProgram(const DisplayMode& mode) {
-  if (mode.quantity != Quantity::kSides && mode.quantity != Quantity::kNormals) return display_program_;
-  if (!sides_program_) sides_program_ = gl::Program(context_, {"display_sides.vert", "display.frag"});
-  return sides_program_;
+  if (mode.quantity == Quantity::kSides || mode.quantity == Quantity::kNormals)
+    return madeOnce(sides_program_, {"display_sides.vert", "display.frag"});
+  return madeOnce(display_program_, {"display.vert", "display.frag"});
+}
+
+const gl::Program& SceneView::byPixelProgram() {
+  return madeOnce(by_pixel_program_, {"display_by_pixel.vert", "display_by_pixel.frag"});
 }
 
 const gl::Program& SceneView::resolveProgram(const DisplayMode& mode, const std::string& tone) {
@@ -146,7 +151,7 @@ DrawnPieces SceneView::drawPieces(const Camera& camera, double aspect, const Fra
   };
   if (drawn.end < triangles) {
     const bool by_pixel = mode.per_element || buffers_.hasField(mode.quantity);
-    const gl::Program& program = by_pixel ? by_pixel_program_ : vertexProgram(mode);
+    const gl::Program& program = by_pixel ? byPixelProgram() : vertexProgram(mode);
     useDisplay(program, matrix, camera, options, lit.elements, element_light);
     fn.Uniform1i(program.uniform("edges"), 0);
     const TrianglesInView seen = lit.blocks.inView(matrix, homogeneousEye(camera, buffers_.bounds()),
@@ -165,8 +170,9 @@ DrawnPieces SceneView::drawPieces(const Camera& camera, double aspect, const Fra
   if (drawn.end >= faces && drawn.end < pieces.end) {
     const std::size_t first = drawn.end - faces, count = left(pieces.end);
     buffers_.bind(reading);
-    useDisplay(by_pixel_program_, matrix, camera, options, lit.elements, element_light);
-    fn.Uniform1i(by_pixel_program_.uniform("edges"), 1);
+    const gl::Program& program = byPixelProgram();
+    useDisplay(program, matrix, camera, options, lit.elements, element_light);
+    fn.Uniform1i(program.uniform("edges"), 1);
     fn.Enable(GL_CLIP_DISTANCE0);
     draw(GL_LINES, buffers_.edges(), 2, first, first + count);
     fn.Disable(GL_CLIP_DISTANCE0);
@@ -181,7 +187,7 @@ void SceneView::drawUnlit(const glm::mat4& matrix, const Camera& camera, const V
   if (count == 0) return;
   const gl::Functions& fn = context_.functions();
   const DisplayMode& mode = displayMode(options.display);
-  const gl::Program& program = buffers_.hasField(mode.quantity) ? by_pixel_program_ : vertexProgram(mode);
+  const gl::Program& program = buffers_.hasField(mode.quantity) ? byPixelProgram() : vertexProgram(mode);
   useDisplay(program, matrix, camera, options, buffers_.triangles().elements, element_light);
   fn.Uniform1i(program.uniform("edges"), 0);
   fn.Uniform1i(program.uniform("per_element"), 0);

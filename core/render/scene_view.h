@@ -6,12 +6,13 @@
 // house. Surfaces without elements on either side are drawn black.
 #pragma once
 
-#include <functional>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -145,6 +146,10 @@ class SceneView {
 
   gl::Context& context_;
   SceneBuffers buffers_;
+  // Programs, each made when the first picture needs it.
+  const gl::Program& madeOnce(gl::Program& program, std::initializer_list<std::string_view> shaders);
+  /// For what is worked out per pixel: light by element, signed light, lines.
+  const gl::Program& byPixelProgram();
   /// For the triangles of a mode that is worked out at vertices.
   const gl::Program& vertexProgram(const DisplayMode& mode);
   const gl::Program& resolveProgram(const DisplayMode& mode, const std::string& tone);

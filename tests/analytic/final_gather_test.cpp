@@ -118,7 +118,7 @@ TEST(FinalGather, IsSavedWithTheSolve) {
 TEST(FinalGather, EndsWithinALimitOfTimeAndSaysWhereThatIsTooShort) {
   const auto within = [](double seconds) {
     SolveOptions options = coarselySeen(true);
-    options.elements = 20'000;
+    options.elements = 10'000;
     options.hemicube_resolution = 256;
     options.error = 1e-12;
     options.max_seconds = seconds;

