@@ -21,6 +21,12 @@ constexpr double kLift = 1.5e-6;
               "free some memory");
 }
 
+// One for all scenes, since to make one takes as long as to build a small scene.
+RTCDevice sharedDevice() {
+  static const RTCDevice device = rtcNewDevice("threads=1");
+  return device;
+}
+
 RTCRay rayOf(const glm::dvec3& origin, const glm::dvec3& direction, float far_distance) {
   RTCRay ray;
   ray.org_x = static_cast<float>(origin.x);
@@ -43,12 +49,10 @@ RTCRay rayOf(const glm::dvec3& origin, const glm::dvec3& direction, float far_di
 struct SceneRays::Impl {
   double scale = 1;  // of what Embree sees
   std::vector<Triangle> triangles;
-  RTCDevice device = nullptr;
   RTCScene scene = nullptr;
 
   ~Impl() {
     if (scene) rtcReleaseScene(scene);
-    if (device) rtcReleaseDevice(device);
   }
 
   bool meetsAny(RTCRay ray) const {
@@ -90,7 +94,7 @@ struct SceneRays::Impl {
   }
 
   void build(std::span<const glm::vec3> positions, std::span<const std::uint32_t> corners) {
-    device = rtcNewDevice("threads=1");
+    const RTCDevice device = sharedDevice();
     if (!device)
       throw Error(ErrorKind::kEnvironment, "Embree gives no device", {}, "reinstalling libembree3");
     scene = rtcNewScene(device);
