@@ -19,9 +19,11 @@ std::uint32_t AmbientTerm::find(std::uint32_t q) const {
 void AmbientTerm::sees(std::uint32_t q, const Column& column, const Receivers& receivers) {
   if (noted_[q]) return;
   noted_[q] = 1;
+  const std::uint32_t root = find(q);
   column.forEach([&](std::uint32_t v, double) {
     for (std::uint32_t s = receivers.start[v]; s < receivers.start[v + 1]; ++s) {
-      group_[find(receivers.shares[s].patch)] = find(q);
+      const std::uint32_t p = receivers.shares[s].patch;
+      if (group_[p] != root) group_[find(p)] = root;
     }
   });
 }
