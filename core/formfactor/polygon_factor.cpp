@@ -89,6 +89,11 @@ double pointToPolygonFactor(const glm::dvec3& point, const glm::dvec3& normal,
     if ((ha > 0 && hb < 0) || (ha < 0 && hb > 0)) scratch.push_back(a + ha / (ha - hb) * (b - a));
   }
   if (scratch.size() < 3) return 0;
+  if (scratch.size() <= 5) {
+    Ring<5> ring;
+    for (std::size_t k = 0; k <= scratch.size(); ++k) ring.set(k, scratch[k < scratch.size() ? k : 0]);
+    return factorOf(ring, scratch.size(), normal);
+  }
   double sum = 0;
   Ring<1> edge;
   for (std::size_t k = 0; k < scratch.size(); ++k) {
