@@ -112,9 +112,13 @@ const SolverBounds& ErrorBudget::update(std::uint64_t shots) {
 
 const SolverBounds& ErrorBudget::sharpen() {
   const Timed timed(seconds_);
-  for (int k = 0; k < kMostRefreshes && bounds_.refresh(); ++k) {
+  if (gains_ || refreshed_version_ != matrix_.version()) {
+    for (int k = 0; k < kMostRefreshes && bounds_.refresh(); ++k) {
+    }
+    refreshed_count_ = matrix_.knownCount();
+    refreshed_version_ = matrix_.version();
+    gains_ = false;
   }
-  gains_ = false;
   now_ = bounds_.sharpened(kMostProducts);
   return now_;
 }
