@@ -7,7 +7,7 @@
 namespace unshot {
 
 const MeshRays& CheckedScene::rays() {
-  if (!rays_) rays_.emplace(mesh_);
+  if (!rays_) rays_ = std::make_shared<const MeshRays>(mesh_);
   return *rays_;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -29,6 +30,8 @@ class CheckedScene {
   const CancelToken& cancel() const { return cancel_; }
 
   const MeshRays& rays();
+  /// The same, for others; null where no check has asked for them.
+  const std::shared_ptr<const MeshRays>& raysAtHand() const { return rays_; }
   const ParallelSurfaces& parallels();
   const std::vector<LightView>& lights();
   const LightWalks& walks();
@@ -44,7 +47,7 @@ class CheckedScene {
   const Mesh& mesh_;
   bool emit_front_only_;
   const CancelToken& cancel_;
-  std::optional<MeshRays> rays_;
+  std::shared_ptr<const MeshRays> rays_;
   std::optional<ParallelSurfaces> parallels_;
   std::optional<std::vector<LightView>> lights_;
   std::optional<LightWalks> walks_;

@@ -53,11 +53,13 @@ std::optional<glm::dvec3> placeAbove(const FactorPolygon& polygon, const Receive
 }  // namespace
 
 LocalPass::LocalPass(const Mesh& mesh, const Receivers& receivers, bool occlusion,
-                     std::shared_ptr<Workers> workers)
+                     std::shared_ptr<Workers> workers, std::shared_ptr<const MeshRays> rays)
     : mesh_(mesh),
       receivers_(receivers),
       polygons_(mesh),
-      rays_(occlusion ? std::make_unique<MeshRays>(mesh) : nullptr),
+      rays_(!occlusion ? nullptr
+            : rays     ? std::move(rays)
+                       : std::make_shared<const MeshRays>(mesh)),
       first_receiver_(receivers.reachedBy(false).first),
       places_(placesOf(receivers, receivers.reachedBy(false))),
       tree_(places_),

@@ -25,9 +25,10 @@ class LocalPass {
   static constexpr int kPasses = 2;
 
   /// For receivers at vertices; all must outlive the pass. `occlusion`: whether anything can stand between
-  /// two points. `workers` share it out; null: the calling thread does all.
+  /// two points. `workers` share it out; null: the calling thread does all. `rays` of the mesh; null: it
+  /// makes its own where it needs some.
   LocalPass(const Mesh& mesh, const Receivers& receivers, bool occlusion,
-            std::shared_ptr<Workers> workers = nullptr);
+            std::shared_ptr<Workers> workers = nullptr, std::shared_ptr<const MeshRays> rays = nullptr);
 
   /// Starts anew, from the present state and `irradiance`, H at the vertices and of each element [W/m^2].
   void begin(const RadiosityState& state, const MeshField& irradiance);
@@ -86,8 +87,8 @@ class LocalPass {
   const Mesh& mesh_;
   const Receivers& receivers_;
   PatchPolygons polygons_;
-  std::unique_ptr<MeshRays> rays_;  // null where nothing can occlude
-  std::vector<Group> groups_;       // one per element of the base
+  std::shared_ptr<const MeshRays> rays_;  // null where nothing can occlude
+  std::vector<Group> groups_;             // one per element of the base
   std::vector<std::vector<std::uint32_t>> groups_of_patch_;
   std::uint32_t first_receiver_ = 0;
   std::vector<glm::dvec3> places_;  // of the receivers from first_receiver_ on

@@ -193,6 +193,7 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
   }
   CheckedScene checked(scene, *out.mesh, options.emit_front_only, cancel);
   const Diagnostics found = checkScene(checked, CheckTime::kEverySolve);
+  out.rays = checked.raysAtHand();
   out.diagnostics.insert(out.diagnostics.end(), found.begin(), found.end());
   const FormFactorMethodRow& row = findChoice(formFactorMethods(), out.form_factors, "form-factor method");
   const std::string unsuited = row.unsuited(*out.mesh);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "mesh/mesh_rays.h"
 #include "session/coarse_mesh.h"
 #include "session/scene_plan.h"
 #include "session/solve.h"
@@ -21,6 +22,7 @@ struct Preparation {
   bool gathers = false;                       ///< whether final gathering is to follow (final_gather.h)
   std::optional<SolvedAtOnce> solved;         ///< the mesh's light, where trying it has brought that
   Diagnostics diagnostics;                    ///< of scene, mesh, checks and choice of method
+  std::shared_ptr<const MeshRays> rays;       ///< of the mesh, where a check has asked for them; else null
   double mesh_seconds = 0, plan_seconds = 0;  ///< wall time
 };
 

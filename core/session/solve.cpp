@@ -105,7 +105,7 @@ void Solve::Impl::setUp(const std::function<gl::Context&()>& gl, const CancelTok
   planClosure(cancel);
   if (mesh->for_error && transport->receivers().kind == ReceiverKind::kVertices && !options.bounces)
     local_pass = std::make_unique<LocalPass>(*mesh, transport->receivers(), form_factors_key != "closed-form",
-                                             workers);
+                                             workers, std::move(prepared.rays));
   planGather();
   bounces_of_light = std::make_unique<Bounces>(mesh, *transport, *state);
   if (prepared.solved) beginWith(std::move(*prepared.solved));
