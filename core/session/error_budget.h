@@ -30,6 +30,7 @@ class ErrorBudget {
   /// The bounds as sharp as they get, whatever it takes (a few sweeps).
   const SolverBounds& sharpen();
   const ErrorBounds& bounds() const { return bounds_; }
+  const PatchMatrix& matrix() const { return matrix_; }
   /// As PatchMatrix::allowOneChannel.
   void allowOneChannel(bool allowed) { matrix_.allowOneChannel(allowed); }
   /// The first estimate may go by these places, as far as it asks for so many (ResidualPlaces::restore).

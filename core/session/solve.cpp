@@ -23,6 +23,8 @@ constexpr std::uint64_t kShotsBeforeMore = 200;
 constexpr std::uint64_t kReceiversAtOnce = 1'000'000;
 // Of them so many along columns that have to be computed.
 constexpr std::uint64_t kColumnsAtOnce = 2;
+// For each column that is known: what a leap costs.
+constexpr double kShotsOfLeap = 0.3;
 // A check of the energy goes over all receivers, which a step may not.
 constexpr std::size_t kRecordsToACheck = 8;
 // Patches whose columns take a minute or two; with more, limits of time come before the first bounce.
@@ -245,6 +247,29 @@ void Solve::Impl::refine() {
   drafts.step(*transport, *state);
 }
 
+// Where a mesh is as fine as the error asks for, all of the light counts.
+bool Solve::Impl::endsNearTheTruth() const {
+  return mesh->for_error && !options.max_shots && !options.bounces;
+}
+
+// Once shots along columns at hand have cost as much as a leap does.
+bool Solve::Impl::leapIsDue() const {
+  if (leap.running()) return true;
+  const PatchMatrix& matrix = budget->matrix();
+  return options.mode == "auto" && mode_key == "southwell" && endsNearTheTruth() && measures.drafts == 0 &&
+         static_cast<double>(shots_at_hand) > kShotsOfLeap * static_cast<double>(matrix.knownCount()) &&
+         canLeapBy(matrix);
+}
+
+bool Solve::Impl::takeLeap() {
+  if (!leapIsDue()) return false;
+  if (!leap.running()) leap.begin(budget->matrix(), *state, *transport);
+  shots_at_hand = 0;
+  if (!leap.running()) return false;
+  measures.shots += leap.advance(*state, *transport);
+  return true;
+}
+
 // A step of the mode, or some where each is a shot along a column at hand or soon computed: looking at what
 // it leaves takes as long. A mode that cannot go on ends the solve as failed, with what it has. Returns false
 // where nothing is left to shoot.
@@ -259,9 +284,11 @@ bool Solve::Impl::iterate(std::uint64_t most_shots) {
   const std::uint64_t shots_before = measures.shots;
   try {
     for (;;) {
+      const std::uint64_t computed_before = transport->computed();
       const std::optional<std::size_t> used = mode->step(*state, *transport);
       if (!used && measures.shots == shots_before) return false;
       measures.shots += used.value_or(0);
+      if (transport->computed() == computed_before) shots_at_hand += used.value_or(0);
       if (used != 1 || measures.shots - shots_before >= most_shots ||
           transport->computed() >= computed + kColumnsAtOnce)
         return true;
@@ -317,7 +344,7 @@ void Solve::Impl::advance(std::uint64_t most_shots) {
     refine();
   } else if ((lacksBound() || closureIsUrgent()) && completeColumns()) {
     refined = false;
-  } else if (iterate(most_shots)) {
+  } else if (takeLeap() || iterate(most_shots)) {
     refined = false;
   } else if (closureIsDue() && completeColumns()) {
     refined = false;
@@ -356,6 +383,8 @@ void Solve::again() {
   s.failure.reset();
   s.mode_failed = s.resting = false;
   s.drafts = {};
+  s.leap = {};
+  s.shots_at_hand = 0;
   s.rows_before = s.transport->computed();
   s.measures.shots = 0;
   s.solve_start = wallSeconds();

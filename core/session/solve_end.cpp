@@ -14,6 +14,8 @@ constexpr double kSolverShare = 0.4;
 constexpr double kLittleUnshot = 0.25;
 // Of the power that is accounted for: rounding leaves 1e-9 at most (10,000 scenes of the property tests).
 constexpr double kMostDrift = 1e-6;
+// Of that share: what the last bounces that are left out may leave too dark (two sweeps leave about a ninth).
+constexpr double kWorthSweeping = 0.1;
 // What asks for a word is surely above the error asked for, and by estimate so many times as large.
 constexpr double kFarAbove = 3;
 // What final gathering is kept of a limited time, over what some looks let expect, and at most.
@@ -72,10 +74,17 @@ void Solve::Impl::finishAs(SolveState how, std::string why) {
   }
   if (how != SolveState::kConverged) return stop(how, std::move(why));
   last_sweeps = {};
-  if (mesh->for_error && !options.max_shots && !options.bounces) last_sweeps.begin();
+  leap.abandon();
+  if (endsNearTheTruth() && measures.solverBound() > kWorthSweeping * target()) {
+    if (canLeapBy(budget->matrix())) {
+      leap.begin(budget->matrix(), *state, *transport);
+    } else {
+      last_sweeps.begin();
+    }
+  }
   local_passes_left = local_pass ? LocalPass::kPasses : 0;
   if (local_pass) local_pass->abandon();
-  if (!last_sweeps.running() && local_passes_left == 0) return stop(SolveState::kConverged, std::move(why));
+  if (!sweeps() && local_passes_left == 0) return stop(SolveState::kConverged, std::move(why));
   finished_by = std::move(why);
 }
 
@@ -92,10 +101,11 @@ void Solve::Impl::finishBegun() {
 // condition of it.
 void Solve::Impl::sharpen() {
   if (final_gather) return sharpenByGather();
-  const bool sweeping = last_sweeps.running();
+  const bool sweeping = sweeps();
   const SolverBounds reached_with = measures.bounds;  // sharpened
   if (sweeping) {
-    measures.shots += last_sweeps.advance(*state, *transport);
+    measures.shots +=
+        leap.running() ? leap.advance(*state, *transport) : last_sweeps.advance(*state, *transport);
   } else if (local_pass) {
     if (!local_pass->running()) {
       const bool first = local_passes_left-- == LocalPass::kPasses;
@@ -109,11 +119,11 @@ void Solve::Impl::sharpen() {
   // Sweeps change the state, and what bounds its error.
   if (!sweeping) {
     measures.bounds = SolverBounds::tighter(measures.bounds, reached_with);
-  } else if (!last_sweeps.running() || out_of_time) {
+  } else if (!sweeps() || out_of_time) {
     measures.bounds = budget->sharpen();
   }
   const bool passing = local_passes_left > 0 || (local_pass && local_pass->running());
-  if ((!last_sweeps.running() && !passing) || out_of_time)
+  if ((!sweeps() && !passing) || out_of_time)
     stop(SolveState::kConverged, *std::exchange(finished_by, std::nullopt));
 }
 

@@ -22,6 +22,7 @@
 #include "session/final_gather.h"
 #include "session/known_solution.h"
 #include "session/last_sweeps.h"
+#include "session/leap.h"
 #include "session/local_pass.h"
 #include "session/saved_solve.h"
 #include "session/solve.h"
@@ -83,6 +84,8 @@ struct Solve::Impl {
   std::optional<std::string> finished_by;     // what ends the solve once what follows is through
   SolveState finishes_as = SolveState::kConverged;
   LastSweeps last_sweeps;
+  Leap leap;
+  std::uint64_t shots_at_hand = 0;  // along columns at hand, since the last leap
   int local_passes_left = 0;
   bool begun_solved = false;  // by the trial of its mesh, whose local pass is at its end too
 
@@ -127,6 +130,10 @@ struct Solve::Impl {
   void sharpen();
   void record();
   void refine();
+  bool endsNearTheTruth() const;
+  bool leapIsDue() const;
+  bool takeLeap();
+  bool sweeps() const { return leap.running() || last_sweeps.running(); }  // at the end
   void advance(std::uint64_t most_shots);
   bool lacksBound() const;
   bool completeColumns();
