@@ -277,7 +277,11 @@ void gridForCount(Mesh& mesh, double wanted, bool paired, const Contacts& contac
       best_error = error;
       best = sizes;
     }
-    if (error < 0.03) break;
+    // Where nothing was clipped or joined no other sizes are nearer.
+    double expected = 0;
+    for (std::size_t s = 0; s < sizes.size(); ++s)
+      expected += elementsOf(mesh, mesh.surfaces[s], sizes[s], paired);
+    if (error < 0.03 || (attempt == 0 && std::abs(countElements(mesh) - expected) < 0.5)) break;
     // Cells below the tolerance are joined however many are asked for.
     asked = std::min(asked * wanted / countElements(mesh), kMostAsked * wanted);
   }

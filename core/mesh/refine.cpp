@@ -305,6 +305,27 @@ Mesh withoutElements(const Mesh& base) {
 
 }  // namespace
 
+bool asksForAny(const Mesh& base, const std::function<bool(const CellPart&)>& split) {
+  std::vector<ConvexPolygon> pieces;
+  for (std::uint32_t s = 0; s < base.surfaces.size(); ++s) {
+    const Surface& surface = base.surfaces[s];
+    if (surface.elements.count == 0) continue;
+    const glm::dvec2 step = surface.extent / glm::dvec2(surface.nu, surface.nv);
+    for (std::uint32_t c = 0; c < surface.nu * surface.nv; ++c) {
+      const Range range = base.cells[surface.first_cell + c].pieces;
+      if (range.count == 0) continue;
+      pieces.clear();
+      for (std::uint32_t p = range.first; p < range.end(); ++p) {
+        const std::span<const PieceCorner> corners = base.cornersOf(base.pieces[p]);
+        pieces.emplace_back(corners.begin(), corners.end());
+      }
+      const glm::dvec2 low = step * glm::dvec2(c % surface.nu, c / surface.nu);
+      if (split({s, low, low + step, 0, pieces})) return true;
+    }
+  }
+  return false;
+}
+
 Mesh refineMesh(std::shared_ptr<const Mesh> base, const std::function<bool(const CellPart&)>& split,
                 const CancelToken& cancel) {
   Mesh mesh = withoutElements(*base);

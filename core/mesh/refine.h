@@ -24,6 +24,9 @@ struct CellPart {
 /// Quarters of quarters at most.
 inline constexpr std::uint32_t kMostRefined = 6;
 
+/// Whether it is to be so for any whole cell.
+bool asksForAny(const Mesh& base, const std::function<bool(const CellPart&)>& split);
+
 /// The mesh with each part of a cell quartered for which `split` says so; an element of the base that is not
 /// quartered stays as it is. Throws Cancelled.
 Mesh refineMesh(std::shared_ptr<const Mesh> base, const std::function<bool(const CellPart&)>& split,

@@ -17,8 +17,9 @@ namespace {
 constexpr double kFirst = 1.0 / 64, kLast = 1.0 / 4;
 // From one trial to the next, times as many at least and at most.
 constexpr double kLeastStep = 2, kMostStep = 10;
-// The error falls with at least this power of their number: walls that meet hold it up.
-constexpr double kOrder = 0.5;
+// The error falls with at least the first of these powers of their number, as walls that meet hold it up, and
+// usually with about the second. A trial aims at this share of what is allowed.
+constexpr double kLeastOrder = 0.5, kOrder = 0.75, kAim = 0.85;
 // The upper end of an estimate's interval over the error asked for: besides the spread over places it allows
 // for occluders and coarse patches (1.8). In rooms without either errors were up to 1.4 times the estimate.
 constexpr double kTrusted = 1.5;
@@ -54,9 +55,12 @@ CoarseMesh findCoarseMesh(const CoarseTrial& trial, const CancelToken& cancel) {
     const ErrorEstimate found = solved.error;
     if (found.places == 0) break;
     if (found.high <= kTrusted * trial.error) return {std::move(mesh), std::move(solved)};
-    const double needed = elements * std::pow(kSpread * found.value / (kTrusted * trial.error), 1 / kOrder);
-    if (needed > kHopeless * last) break;
-    elements = std::clamp(needed, kLeastStep * elements, kMostStep * elements);
+    const double over = kSpread * found.value / (kTrusted * trial.error);
+    if (elements * std::pow(over, 1 / kLeastOrder) > kHopeless * last) break;
+    const double over_aim = found.high / (kAim * kTrusted * trial.error);
+    const double step = std::clamp(std::pow(over_aim, 1 / kOrder), kLeastStep, kMostStep);
+    // What is hardly more than the last trial may have is tried with that.
+    elements = elements < last ? std::min(step * elements, last) : step * elements;
   }
   return {};
 }

@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <iterator>
-#include <span>
 #include <vector>
 
 #include "mesh/mesh_rays.h"
@@ -117,34 +116,13 @@ bool hasReflectingLamp(const Mesh& mesh) {
   });
 }
 
-// Whether any whole cell asks to be quartered.
-bool anyCellAsks(const Mesh& base, GapQuestion& question) {
-  std::vector<ConvexPolygon> pieces;
-  for (std::uint32_t s = 0; s < base.surfaces.size(); ++s) {
-    const Surface& surface = base.surfaces[s];
-    if (surface.elements.count == 0) continue;
-    const glm::dvec2 step = surface.extent / glm::dvec2(surface.nu, surface.nv);
-    for (std::uint32_t c = 0; c < surface.nu * surface.nv; ++c) {
-      const Range range = base.cells[surface.first_cell + c].pieces;
-      pieces.clear();
-      for (std::uint32_t p = range.first; p < range.end(); ++p) {
-        const std::span<const PieceCorner> corners = base.cornersOf(base.pieces[p]);
-        pieces.emplace_back(corners.begin(), corners.end());
-      }
-      const glm::dvec2 low = step * glm::dvec2(c % surface.nu, c / surface.nu);
-      if (question({s, low, low + step, 0, pieces})) return true;
-    }
-  }
-  return false;
-}
-
 }  // namespace
 
 std::shared_ptr<const Mesh> refineInGaps(std::shared_ptr<const Mesh> base, const CancelToken& cancel) {
   if (!hasReflectingLamp(*base)) return base;
   GapQuestion question(*base, cancel);
   question.restart(kGaps);
-  if (!anyCellAsks(*base, question)) return base;
+  if (!asksForAny(*base, [&](const CellPart& part) { return question(part); })) return base;
   double gaps = kGaps;
   for (int attempt = 0; attempt < kMostAttempts; ++attempt, gaps *= 2) {
     question.restart(gaps);

@@ -79,11 +79,15 @@ class LightQuestion {
 
   // Whether it ended before every part was asked for: then what lies behind would have less than its share.
   bool full() const { return full_; }
-  // Again from the start, content with twice the difference; false where no more points can be looked at.
-  bool relax() {
-    tolerance_ *= 2;
+  // Again from the start.
+  void restart() {
     elements_ = base_.element_count;
     full_ = false;
+  }
+  // The same, content with twice the difference; false where no more points can be looked at.
+  bool relax() {
+    tolerance_ *= 2;
+    restart();
     return looksFor(known_.size()) <= kMostLooks;
   }
 
@@ -173,9 +177,11 @@ std::shared_ptr<const Mesh> refineForLight(std::shared_ptr<const Mesh> uniform,
                                            const LightRefinement& options, const CancelToken& cancel) {
   const std::shared_ptr<const Mesh> base = refineInGaps(uniform, cancel);
   LightQuestion question(*base, options.emitters ? *options.emitters : *uniform, options, cancel);
+  const auto split = [&](const CellPart& part) { return question(part); };
+  if (!asksForAny(*base, split) && !question.full()) return base;
+  question.restart();
   for (;;) {
-    auto mesh = std::make_shared<Mesh>(refineMesh(
-        base, [&](const CellPart& part) { return question(part); }, cancel));
+    auto mesh = std::make_shared<Mesh>(refineMesh(base, split, cancel));
     if (!question.full()) return mesh->element_count > base->element_count ? mesh : base;
     if (!question.relax()) return base;
   }

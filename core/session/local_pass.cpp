@@ -56,17 +56,23 @@ LocalPass::LocalPass(const Mesh& mesh, const Receivers& receivers, bool occlusio
                      std::shared_ptr<Workers> workers, std::shared_ptr<const MeshRays> rays)
     : mesh_(mesh),
       receivers_(receivers),
-      polygons_(mesh),
-      rays_(!occlusion ? nullptr
-            : rays     ? std::move(rays)
-                       : std::make_shared<const MeshRays>(mesh)),
+      occlusion_(occlusion),
+      rays_(std::move(rays)),
       first_receiver_(receivers.reachedBy(false).first),
-      places_(placesOf(receivers, receivers.reachedBy(false))),
-      tree_(places_),
       workers_(std::move(workers)),
-      hands_(workers_ ? workers_->count() : 1) {
+      hands_(workers_ ? workers_->count() : 1) {}
+
+void LocalPass::findPlaces() {
+  polygons_.emplace(mesh_);
+  if (!occlusion_) {
+    rays_.reset();
+  } else if (!rays_) {
+    rays_ = std::make_shared<const MeshRays>(mesh_);
+  }
+  places_ = placesOf(receivers_, receivers_.reachedBy(false));
+  tree_.emplace(places_);
   makeGroups();
-  looks_.resize(mesh.patch_count);
+  looks_.resize(mesh_.patch_count);
 }
 
 void LocalPass::makeGroups() {
@@ -87,6 +93,7 @@ void LocalPass::makeGroups() {
 }
 
 void LocalPass::begin(const RadiosityState& state, const MeshField& irradiance) {
+  if (!polygons_) findPlaces();
   element_light_.resize(mesh_.element_count);
   group_light_.assign(groups_.size(), glm::dvec3(0.0));
   std::vector<double> area(groups_.size(), 0.0);
@@ -177,9 +184,9 @@ void LocalPass::find(std::uint32_t q, Hand& hand) const {
   out.found = true;
   out.near.clear();
   out.looks.clear();
-  const glm::dvec3& middle = polygons_.middle(q);
+  const glm::dvec3& middle = polygons_->middle(q);
   const double near_radii = mesh_.joined(q) ? kNearJoined : kNearRadii;
-  tree_.nearSegment(middle, middle, near_radii * polygons_.radius(q), [&](std::uint32_t place) {
+  tree_->nearSegment(middle, middle, near_radii * polygons_->radius(q), [&](std::uint32_t place) {
     const std::uint32_t v = first_receiver_ + place;
     bool near = false;
     for (const ReceiverView& view : receivers_.viewsOf(v)) near |= look(view, q, out.looks, hand.scratch);
@@ -191,8 +198,8 @@ void LocalPass::find(std::uint32_t q, Hand& hand) const {
 // for what occludes.
 bool LocalPass::look(const ReceiverView& view, std::uint32_t q, std::vector<Look>& out,
                      std::vector<glm::dvec3>& scratch) const {
-  if (mesh_.sides[view.side].surface == polygons_.surface(q) ||
-      !polygons_.faces(q, view.position, view.normal))
+  if (mesh_.sides[view.side].surface == polygons_->surface(q) ||
+      !polygons_->faces(q, view.position, view.normal))
     return false;
   const glm::dvec3& normal = mesh_.sides[mesh_.patch_side[q]].normal;
   const glm::dvec3 eye = rays_ ? rays_->rays().lifted(view.position, view.normal) : view.position;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/point_tree.h"
@@ -55,6 +56,7 @@ class LocalPass {
     glm::dvec3 middle{0.0};
     double radius = 0;
   };
+  void findPlaces();
   void makeGroups();
   // What a receiver sees of an element, or of a whole group where that is far enough.
   struct Look {
@@ -86,13 +88,15 @@ class LocalPass {
 
   const Mesh& mesh_;
   const Receivers& receivers_;
-  PatchPolygons polygons_;
+  const bool occlusion_;
+  // From the first pass on, up to tree_:
+  std::optional<PatchPolygons> polygons_;
   std::shared_ptr<const MeshRays> rays_;  // null where nothing can occlude
   std::vector<Group> groups_;             // one per element of the base
   std::vector<std::vector<std::uint32_t>> groups_of_patch_;
   std::uint32_t first_receiver_ = 0;
   std::vector<glm::dvec3> places_;  // of the receivers from first_receiver_ on
-  PointTree tree_;
+  std::optional<PointTree> tree_;
   std::vector<glm::dvec3> element_light_, group_light_, patch_light_;  // of the pass that is running
   ElementSlopes slopes_;                                               // and of its light
   std::vector<glm::dvec3> sum_, irradiance_;

@@ -34,12 +34,10 @@ glm::dvec3 barycentric(double u, double v) {
 
 ResidualPlaces::ResidualPlaces(const Mesh& mesh, const Receivers& receivers, bool occlusion,
                                std::uint64_t seed)
-    : mesh_(mesh), receivers_(receivers), seed_(mixBits(seed ^ 0x7265736964756cull)) {
-  if (!occlusion && looksExactlySooner(mesh)) {
-    exact_.emplace(mesh);
-  } else {
-    gatherer_.emplace(mesh);
-  }
+    : mesh_(mesh),
+      receivers_(receivers),
+      seed_(mixBits(seed ^ 0x7265736964756cull)),
+      looks_exact_(!occlusion && looksExactlySooner(mesh)) {
   if (receivers.kind == ReceiverKind::kElements) element_points_.emplace(mesh);
   double sum = 0;
   for (std::uint32_t t = 0; t < mesh.triangle_element.size(); ++t) {
@@ -109,7 +107,7 @@ void ResidualPlaces::forget() {
 }
 
 std::vector<ResidualPlace> ResidualPlaces::take() {
-  return exact_ ? std::exchange(points_, {}) : std::vector<ResidualPlace>();
+  return looks_exact_ ? std::exchange(points_, {}) : std::vector<ResidualPlace>();
 }
 
 void ResidualPlaces::add(std::size_t places, const MeshField& shown) {
@@ -117,10 +115,12 @@ void ResidualPlaces::add(std::size_t places, const MeshField& shown) {
       receiver_area_sum_.back() <= 0)
     return;
   findLight(shown);
+  if (looks_exact_ && !exact_) exact_.emplace(mesh_);
+  if (!looks_exact_ && !gatherer_) gatherer_.emplace(mesh_);
   for (std::size_t k = 0; k < places; ++k) {
     const std::uint64_t number = points_.size();
     addPoint(number);
-    if (!exact_) addReceiver(number);
+    if (!looks_exact_) addReceiver(number);
   }
 }
 
@@ -144,7 +144,7 @@ void ResidualPlaces::addPoint(std::uint64_t number) {
                 glm::dvec3(mesh_.vertices[mesh_.triangle_vertices[3 * place.triangle + k]].position);
   const glm::dvec3& normal = mesh_.sides[mesh_.element_side[element]].normal;
   place.looks[0] = look(position, normal, mixBits(bits + 2));
-  if (!exact_) place.looks[1] = look(position, normal, mixBits(bits + 3));
+  if (!looks_exact_) place.looks[1] = look(position, normal, mixBits(bits + 3));
   points_.push_back(std::move(place));
 }
 

@@ -36,7 +36,7 @@ class ResidualPlaces {
   /// have places too, for what goes on from there.
   void add(std::size_t places, const MeshField& shown);
   /// Whether looks are exact (exact_look.h).
-  bool exact() const { return exact_.has_value(); }
+  bool exact() const { return looks_exact_; }
   /// Gives the points away, for restore() of other places of this mesh, seed and occlusion; none where looks
   /// are not exact.
   std::vector<ResidualPlace> take();
@@ -63,7 +63,8 @@ class ResidualPlaces {
   const Mesh& mesh_;
   const Receivers& receivers_;
   std::uint64_t seed_;
-  std::optional<Gatherer> gatherer_;  // one of the two
+  bool looks_exact_;
+  std::optional<Gatherer> gatherer_;  // one of the two, from the first look on
   std::optional<ExactLook> exact_;
   // Running sums over triangles and receivers: of the area where places may lie, and of the square of the
   // light there.

@@ -79,6 +79,22 @@ TEST(RefinedMesh, LosesNoSliver) {
   EXPECT_LT(least, 1e-9);
 }
 
+TEST(RefinedMesh, IsAskedForWhereAnyCellIsToBeQuartered) {
+  const auto base = baseOf(publishedCornellBox(), 400);
+  std::size_t cells = 0;
+  EXPECT_FALSE(asksForAny(*base, [&](const CellPart& part) {
+    EXPECT_EQ(part.depth, 0u);
+    EXPECT_FALSE(part.pieces.empty());
+    ++cells;
+    return false;
+  }));
+  std::size_t asked = 0;
+  refineMesh(base, [&](const CellPart&) { return ++asked == 0; });
+  EXPECT_EQ(cells, asked);
+  std::size_t until = 0;
+  EXPECT_TRUE(asksForAny(*base, [&](const CellPart&) { return ++until == cells; }));
+}
+
 TEST(RefinedMesh, IsTheBaseWhereNothingIsQuartered) {
   const auto base = baseOf(publishedCornellBox(), 400);
   const Mesh mesh = refineMesh(base, [](const CellPart&) { return false; });
