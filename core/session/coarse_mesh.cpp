@@ -51,7 +51,7 @@ CoarseMesh findCoarseMesh(const CoarseTrial& trial, const CancelToken& cancel) {
   const double last = kLast * trial.usual;
   for (double elements = kFirst * trial.usual; elements <= last;) {
     std::shared_ptr<const Mesh> mesh = trial.make(elements);
-    SolvedAtOnce solved = solveAtOnce(*mesh, trial.seed, trial.one_channel, cancel);
+    SolvedAtOnce solved = solveAtOnce(*mesh, trial.seed, trial.fewer_channels, cancel);
     const ErrorEstimate found = solved.error;
     if (found.places == 0) break;
     if (found.high <= kTrusted * trial.error) return {std::move(mesh), std::move(solved)};
@@ -65,7 +65,8 @@ CoarseMesh findCoarseMesh(const CoarseTrial& trial, const CancelToken& cancel) {
   return {};
 }
 
-SolvedAtOnce solveAtOnce(const Mesh& mesh, std::uint64_t seed, bool one_channel, const CancelToken& cancel) {
+SolvedAtOnce solveAtOnce(const Mesh& mesh, std::uint64_t seed, bool fewer_channels,
+                         const CancelToken& cancel) {
   FormFactorSetup setup;
   setup.mesh = &mesh;
   setup.cancel = cancel;
@@ -78,8 +79,8 @@ SolvedAtOnce solveAtOnce(const Mesh& mesh, std::uint64_t seed, bool one_channel,
   }
   RadiosityState state(transport, emission, reflectance);
   PatchMatrix matrix(transport.receivers(), transport.patchArea(), kAnyMemory);
-  state.allowOneChannel(one_channel);
-  matrix.allowOneChannel(one_channel);
+  state.allowFewerChannels(fewer_channels);
+  matrix.allowFewerChannels(fewer_channels);
   for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
     cancel.check();
     matrix.set(q, transport.column(q));

@@ -17,7 +17,7 @@ struct CoarseTrial {
   double error = 0.01;  ///< of the whole light, asked for
   double usual = 0;     ///< elements of the usual mesh
   std::uint64_t seed = 1;
-  bool one_channel = true;  ///< grey light is solved once (RadiosityState::allowOneChannel)
+  bool fewer_channels = true;  ///< those that are alike are solved once (RadiosityState::allowFewerChannels)
   /// The mesh of about so many elements, which follows the light.
   std::function<std::shared_ptr<const Mesh>(double)> make;
 };
@@ -47,6 +47,7 @@ bool mayBeCoarse(const Mesh& coarsest, double usual);
 CoarseMesh findCoarseMesh(const CoarseTrial& trial, const CancelToken& cancel);
 
 /// The time grows with the square of the mesh's elements.
-SolvedAtOnce solveAtOnce(const Mesh& mesh, std::uint64_t seed, bool one_channel, const CancelToken& cancel);
+SolvedAtOnce solveAtOnce(const Mesh& mesh, std::uint64_t seed, bool fewer_channels,
+                         const CancelToken& cancel);
 
 }  // namespace unshot

@@ -31,8 +31,8 @@ class ErrorBudget {
   const SolverBounds& sharpen();
   const ErrorBounds& bounds() const { return bounds_; }
   const PatchMatrix& matrix() const { return matrix_; }
-  /// As PatchMatrix::allowOneChannel.
-  void allowOneChannel(bool allowed) { matrix_.allowOneChannel(allowed); }
+  /// As PatchMatrix::allowFewerChannels.
+  void allowFewerChannels(bool allowed) { matrix_.allowFewerChannels(allowed); }
   /// The first estimate may go by these places, as far as it asks for so many (ResidualPlaces::restore).
   void offerPlaces(std::vector<ResidualPlace> places) { offered_ = std::move(places); }
   /// Estimates of what form factors and mesh leave wrong, from so many more places than before.

@@ -106,7 +106,7 @@ CoarseMesh coarseMesh(const SurfacesOfScene& surfaces, const SolveOptions& optio
       {.error = options.error,
        .usual = usual,
        .seed = options.seed,
-       .one_channel = leavesOut(options.do_anyway, plan_keys::kChannels),
+       .fewer_channels = leavesOut(options.do_anyway, plan_keys::kChannels),
        .make =
            [&](double elements) {
              return refineForLight(baseMesh(surfaces, mesh_options, elements, cancel), refinement, cancel);

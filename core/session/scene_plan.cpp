@@ -1,6 +1,7 @@
 #include "session/scene_plan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <iterator>
 
@@ -42,8 +43,8 @@ constexpr PlanRow kRows[] = {
       "a mesh finer than a coarse one that was tried and is good enough"},
      "within the error asked for, by estimate"},
     {{plan_keys::kChannels, "Channels that are alike",
-      "sums over patches and receivers for each channel, where all that light meets is grey"},
-     "exact: the same sums, to the last bit"},
+      "sums over patches and receivers for channels that are grey, in proportion to another, or dark"},
+     "exact: the same sums to rounding, of grey light to the last bit"},
     {{plan_keys::kShooters, "Patches that need not shoot",
       "form factors of patches that are black, or whose light does not matter to the error asked for"},
      "within the error asked for, by the solver's bound; black patches have nothing to send"}};
@@ -92,6 +93,54 @@ void addSides(const PlannedSolve& solve, std::vector<PlanDecision>& out) {
           (unlit == 0 ? ""
                       : "; " + countedText(unlit, "surface") + " without a lit side " +
                             (unlit == 1 ? "is" : "are") + " in pictures only"));
+}
+
+// Values of two channels are in one proportion to within this share: rounding of decimal figures.
+constexpr double kInProportion = 1e-12;
+
+// Whether channel c is to channel `other` as everywhere, and reflected alike.
+bool areAlike(const PlannedSolve& solve, int c, int other) {
+  double ratio = solve.sky[c] / solve.sky[other];  // not a number where there is no sky
+  const auto sameRatio = [&](const glm::dvec3& light) {
+    if (light == glm::dvec3(0.0)) return true;
+    if (std::isnan(ratio)) ratio = light[c] / light[other];
+    return std::abs(light[c] - ratio * light[other]) <= kInProportion * light[c];
+  };
+  return sameRatio(solve.sky) &&
+         std::all_of(solve.mesh.sides.begin(), solve.mesh.sides.end(), [&](const Side& s) {
+           return s.reflectance[c] == s.reflectance[other] && sameRatio(s.emission);
+         });
+}
+
+// Of channels that need no sums of their own.
+void addChannels(const PlannedSolve& solve, std::vector<PlanDecision>& out) {
+  constexpr std::string_view kNames[] = {"red", "green", "blue"};
+  const std::vector<Side>& sides = solve.mesh.sides;
+  const auto every = [&](auto&& holds) { return std::all_of(sides.begin(), sides.end(), holds); };
+  std::string dark, alike;
+  int left_out = 0;
+  std::vector<int> own;
+  for (int c = 0; c < 3; ++c) {
+    const auto like = std::find_if(own.begin(), own.end(), [&](int o) { return areAlike(solve, c, o); });
+    if (solve.sky[c] == 0 && every([c](const Side& s) { return s.emission[c] == 0; })) {
+      dark += (dark.empty() ? "" : " or ") + std::string(kNames[c]);
+    } else if (like != own.end()) {
+      alike += (alike.empty() ? "" : "; ") + std::string(kNames[c]) + " light is to " +
+               std::string(kNames[*like]) + " as everywhere, and as much of it is reflected";
+    } else {
+      own.push_back(c);
+      continue;
+    }
+    ++left_out;
+  }
+  if (left_out == 0 || own.empty()) return;
+  if (isGrey(solve.sky) && every([](const Side& s) { return isGrey(s.reflectance) && isGrey(s.emission); }))
+    alike = "all reflectances and emissions that light meets are grey, so channels are alike";
+  if (!dark.empty()) dark = "nothing emits " + dark + (alike.empty() ? "" : "; ");
+  out.push_back(decision(
+      plan_keys::kChannels,
+      std::string(left_out == 1 ? "one" : "two") + " of three channels in sums over patches and receivers",
+      dark + alike, std::string(left_out == 1 ? "a third" : "two thirds") + " of these sums"));
 }
 
 }  // namespace
@@ -163,14 +212,7 @@ std::vector<PlanDecision> makePlan(const PlannedSolve& solve) {
                                : "a row of form factors for each receiver",
                            by_rays ? solve.error : 0));
   }
-  const bool grey = isGrey(solve.sky) && std::all_of(mesh.sides.begin(), mesh.sides.end(), [](const Side& s) {
-                      return isGrey(s.reflectance) && isGrey(s.emission);
-                    });
-  if (grey && leavesOut(solve.done, plan_keys::kChannels)) {
-    out.push_back(decision(plan_keys::kChannels, "two of three channels in sums over patches and receivers",
-                           "all reflectances and emissions that light meets are grey, so channels are alike",
-                           "two thirds of these sums"));
-  }
+  if (leavesOut(solve.done, plan_keys::kChannels)) addChannels(solve, out);
   return out;
 }
 

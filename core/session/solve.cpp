@@ -94,10 +94,10 @@ void Solve::Impl::setUp(const std::function<gl::Context&()>& gl, const CancelTok
   budget = std::make_unique<ErrorBudget>(*mesh, *transport, *state, options.kept_bytes / options.sharers / 4,
                                          form_factors_key != "closed-form" || !nothingCanOcclude(*mesh),
                                          options.seed);
-  const bool one_channel = std::any_of(plan.begin(), plan.end(),
-                                       [](const PlanDecision& d) { return d.key == plan_keys::kChannels; });
-  state->allowOneChannel(one_channel);
-  budget->allowOneChannel(one_channel);
+  const bool fewer_channels = std::any_of(
+      plan.begin(), plan.end(), [](const PlanDecision& d) { return d.key == plan_keys::kChannels; });
+  state->allowFewerChannels(fewer_channels);
+  budget->allowFewerChannels(fewer_channels);
   transport->watchColumns([this](std::uint32_t q, const Column& column) {
     // What the sky shines on need not see each other.
     if (q < mesh->patch_count) ambient->sees(q, column, transport->receivers());

@@ -1,9 +1,10 @@
 #include "solver/patch_matrix.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-
-#include "base/colour.h"
+#include <optional>
+#include <type_traits>
 
 namespace unshot {
 namespace {
@@ -13,13 +14,6 @@ constexpr std::size_t kColumnsCompared = 64;
 constexpr std::uint32_t kBridged = 2;
 // Patches that receive are put in order by going through all where they are more than one in so many.
 constexpr std::size_t kFew = 16;
-
-// Colours with each channel by itself, for sums along runs.
-struct Channels {
-  std::vector<double> r, g, b;
-
-  explicit Channels(std::size_t size) : r(size, 0.0), g(size, 0.0), b(size, 0.0) {}
-};
 
 // Share of the known area whose patches may send more than the others do.
 constexpr double kUnusual = 0.01;
@@ -35,7 +29,55 @@ double dotOf(const float* a, const double* b, std::size_t count) {
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-bool allGrey(std::span<const glm::dvec3> x) { return std::all_of(x.begin(), x.end(), isGrey); }
+// Values of two channels are in proportion where each is to within this share: rounding, and far less than
+// what single precision leaves of P.
+constexpr double kInProportion = 1e-12;
+
+/// The channels that sums have to be worked out for, and each of the three as a multiple of one of them.
+struct OwnChannels {
+  std::array<int, 3> own{0, 1, 2};
+  std::size_t count = 3;
+  std::array<std::size_t, 3> of{0, 1, 2};  // index in `own`
+  std::array<double, 3> factor{1, 1, 1};
+
+  glm::dvec3 colour(const std::array<double, 3>& sums) const {
+    return {factor[0] * sums[of[0]], factor[1] * sums[of[1]], factor[2] * sums[of[2]]};
+  }
+};
+
+// The factor of channel c over channel `own`, where the two are in proportion.
+std::optional<double> proportion(std::span<const glm::dvec3> x, int c, int own) {
+  const auto first = std::find_if(x.begin(), x.end(), [&](const glm::dvec3& v) { return v[own] != 0; });
+  if (first == x.end()) return std::nullopt;
+  const double factor = (*first)[c] / (*first)[own];
+  const bool all = std::all_of(x.begin(), x.end(), [&](const glm::dvec3& v) {
+    const double expected = factor * v[own];
+    return std::abs(v[c] - expected) <= kInProportion * std::abs(expected);
+  });
+  return all ? std::optional(factor) : std::nullopt;
+}
+
+OwnChannels ownChannels(std::span<const glm::dvec3> x) {
+  OwnChannels out;
+  out.count = 0;
+  for (int c = 0; c < 3; ++c) {
+    if (std::all_of(x.begin(), x.end(), [c](const glm::dvec3& v) { return v[c] == 0; })) {
+      out.of[c] = 0;
+      out.factor[c] = 0;
+      continue;
+    }
+    std::optional<double> factor;
+    for (std::size_t k = 0; k < out.count && !factor; ++k) {
+      factor = proportion(x, c, out.own[k]);
+      out.of[c] = k;
+    }
+    out.factor[c] = factor.value_or(1);
+    if (factor) continue;
+    out.of[c] = out.count;
+    out.own[out.count++] = c;
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -141,35 +183,39 @@ void PatchMatrix::forEachRun(std::uint32_t q, F&& f) const {
   }
 }
 
+// f(number of channels that need sums of their own, as a constant; those channels).
+template <class F>
+void PatchMatrix::forOwnChannels(std::span<const glm::dvec3> x, F&& f) const {
+  const OwnChannels own = fewer_channels_ ? ownChannels(x) : OwnChannels();
+  if (own.count <= 1) return f(std::integral_constant<std::size_t, 1>(), own);
+  if (own.count == 2) return f(std::integral_constant<std::size_t, 2>(), own);
+  f(std::integral_constant<std::size_t, 3>(), own);
+}
+
 void PatchMatrix::product(std::span<const glm::dvec3> x, std::span<glm::dvec3> out) const {
-  if (one_channel_ && allGrey(x)) {
-    std::vector<double> sums(out.size(), 0.0);
+  forOwnChannels(x, [&](auto count_of, const OwnChannels& own) {
+    constexpr std::size_t kCount = decltype(count_of)::value;
+    std::array<std::vector<double>, kCount> sums;
+    sums.fill(std::vector<double>(out.size(), 0.0));
     for (std::uint32_t q = 0; q < columns_.size(); ++q) {
-      const double sent = x[q].x;
-      if (sent == 0) continue;
+      std::array<double, kCount> sent;
+      for (std::size_t c = 0; c < kCount; ++c) sent[c] = x[q][own.own[c]];
+      if (sent == std::array<double, kCount>{}) continue;
       forEachRun(q, [&](std::uint32_t first, const float* values, std::size_t count) {
-        double* sum = &sums[first];
-        for (std::size_t k = 0; k < count; ++k) sum[k] += static_cast<double>(values[k]) * sent;
+        std::array<double*, kCount> sum;
+        for (std::size_t c = 0; c < kCount; ++c) sum[c] = &sums[c][first];
+        for (std::size_t k = 0; k < count; ++k) {
+          const double value = values[k];
+          for (std::size_t c = 0; c < kCount; ++c) sum[c][k] += value * sent[c];
+        }
       });
     }
-    for (std::size_t p = 0; p < out.size(); ++p) out[p] = glm::dvec3(sums[p]);
-    return;
-  }
-  Channels sums(out.size());
-  for (std::uint32_t q = 0; q < columns_.size(); ++q) {
-    const glm::dvec3 sent = x[q];
-    if (sent == glm::dvec3(0.0)) continue;
-    forEachRun(q, [&](std::uint32_t first, const float* values, std::size_t count) {
-      double *r = &sums.r[first], *g = &sums.g[first], *b = &sums.b[first];
-      for (std::size_t k = 0; k < count; ++k) {
-        const double value = values[k];
-        r[k] += value * sent.x;
-        g[k] += value * sent.y;
-        b[k] += value * sent.z;
-      }
-    });
-  }
-  for (std::size_t p = 0; p < out.size(); ++p) out[p] = {sums.r[p], sums.g[p], sums.b[p]};
+    std::array<double, 3> of_patch{};
+    for (std::size_t p = 0; p < out.size(); ++p) {
+      for (std::size_t c = 0; c < kCount; ++c) of_patch[c] = sums[c][p];
+      out[p] = own.colour(of_patch);
+    }
+  });
 }
 
 glm::dvec3 PatchMatrix::transposed(std::uint32_t q, std::span<const glm::dvec3> x) const {
@@ -182,32 +228,22 @@ glm::dvec3 PatchMatrix::transposed(std::uint32_t q, std::span<const glm::dvec3> 
 }
 
 void PatchMatrix::transposed(std::span<const glm::dvec3> x, std::span<glm::dvec3> out) const {
-  if (one_channel_ && allGrey(x)) {
-    std::vector<double> weighted(x.size());
-    for (std::size_t p = 0; p < x.size(); ++p) weighted[p] = area_[p] * x[p].x;
-    for (std::uint32_t q = 0; q < columns_.size(); ++q) {
-      double sum = 0;
-      forEachRun(q, [&](std::uint32_t first, const float* values, std::size_t count) {
-        sum += dotOf(values, &weighted[first], count);
-      });
-      out[q] = glm::dvec3(sum / area_[q]);
+  forOwnChannels(x, [&](auto count_of, const OwnChannels& own) {
+    constexpr std::size_t kCount = decltype(count_of)::value;
+    std::array<std::vector<double>, kCount> weighted;
+    for (std::size_t c = 0; c < kCount; ++c) {
+      weighted[c].reserve(x.size());
+      for (std::size_t p = 0; p < x.size(); ++p) weighted[c].push_back(area_[p] * x[p][own.own[c]]);
     }
-    return;
-  }
-  Channels weighted(x.size());
-  for (std::size_t p = 0; p < x.size(); ++p) {
-    weighted.r[p] = area_[p] * x[p].x;
-    weighted.g[p] = area_[p] * x[p].y;
-    weighted.b[p] = area_[p] * x[p].z;
-  }
-  for (std::uint32_t q = 0; q < columns_.size(); ++q) {
-    glm::dvec3 sum(0.0);
-    forEachRun(q, [&](std::uint32_t first, const float* values, std::size_t count) {
-      sum += glm::dvec3(dotOf(values, &weighted.r[first], count), dotOf(values, &weighted.g[first], count),
-                        dotOf(values, &weighted.b[first], count));
-    });
-    out[q] = sum / area_[q];
-  }
+    for (std::uint32_t q = 0; q < columns_.size(); ++q) {
+      std::array<double, 3> sum{};
+      forEachRun(q, [&](std::uint32_t first, const float* values, std::size_t count) {
+        for (std::size_t c = 0; c < kCount; ++c) sum[c] += dotOf(values, &weighted[c][first], count);
+      });
+      for (double& s : sum) s /= area_[q];
+      out[q] = own.colour(sum);
+    }
+  });
 }
 
 double PatchMatrix::exchange(std::uint32_t p, std::uint32_t q) const {

@@ -46,8 +46,9 @@ class PatchMatrix {
   /// receivers may be far off. At least 1.
   double usuallySent() const;
 
-  /// Where x is grey, products may go by one channel for all three: the same to the last bit.
-  void allowOneChannel(bool allowed) { one_channel_ = allowed; }
+  /// Products may leave out channels of x that are 0, and take those that are in proportion to another one
+  /// from it: the same to rounding, and where they are equal to the last bit.
+  void allowFewerChannels(bool allowed) { fewer_channels_ = allowed; }
 
   /// out_p = sum_q P_pq x_q over known columns.
   void product(std::span<const glm::dvec3> x, std::span<glm::dvec3> out) const;
@@ -74,6 +75,8 @@ class PatchMatrix {
   // f(patch, values, number) for each run of column q.
   template <class F>
   void forEachRun(std::uint32_t q, F&& f) const;
+  template <class F>
+  void forOwnChannels(std::span<const glm::dvec3> x, F&& f) const;
   void putInOrder();
   void store(PatchColumn& out, std::uint32_t q);
   /// A_p P_pq of known column q [m^2].
@@ -83,7 +86,7 @@ class PatchMatrix {
   std::span<const double> area_;
   std::size_t budget_, bytes_ = 0, entry_count_ = 0, known_count_ = 0;
   std::uint64_t version_ = 0;
-  bool one_channel_ = false;
+  bool fewer_channels_ = false;
   double largest_sent_ = 1;
   std::vector<PatchColumn> columns_;
   std::vector<char> known_, reached_;

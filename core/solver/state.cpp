@@ -11,6 +11,12 @@ namespace {
 
 double sumOfChannels(const glm::dvec3& x) { return x.x + x.y + x.z; }
 
+// The one that is not 0; -1: there are several, or none.
+int onlyChannel(const glm::dvec3& x) {
+  if ((x.x != 0) + (x.y != 0) + (x.z != 0) != 1) return -1;
+  return x.x != 0 ? 0 : x.y != 0 ? 1 : 2;
+}
+
 }  // namespace
 
 RadiosityState::RadiosityState(const Transport& transport, std::vector<glm::dvec3> emission,
@@ -25,8 +31,9 @@ RadiosityState::RadiosityState(const Transport& transport, std::vector<glm::dvec
   reset();
 }
 
-void RadiosityState::allowOneChannel(bool allowed) {
-  one_channel_ = allowed && std::all_of(reflectance_.begin(), reflectance_.end(), isGrey);
+void RadiosityState::allowFewerChannels(bool allowed) {
+  fewer_channels_ = allowed;
+  grey_reflectance_ = std::all_of(reflectance_.begin(), reflectance_.end(), isGrey);
 }
 
 void RadiosityState::reset() {
@@ -99,21 +106,26 @@ glm::dvec3 RadiosityState::takeEmission(std::uint32_t q, const glm::dvec3& d) {
 
 void RadiosityState::receive(std::uint32_t q, const glm::dvec3& d, const Column& column) {
   const Receivers& receivers = transport_.receivers();
-  // `one` takes a colour, or the one channel for all of it.
-  const auto receiveAll = [&](const auto& sent, auto&& one) {
+  // `of` takes from a colour what takes part, or the one channel for all of it.
+  const auto receiveAll = [&](const auto& sent, auto&& of, auto&& rho_of) {
     column.forEach([&](std::uint32_t v, double k) {
       const auto received = k * sent;
-      values_.irradiance[v] += received;
+      of(values_.irradiance[v]) += received;
       for (std::uint32_t s = receivers.start[v]; s < receivers.start[v + 1]; ++s) {
         const std::uint32_t p = receivers.shares[s].patch;
-        values_.unshot[p] += share_of_area_[s] * one(reflectance_[p]) * received;
+        of(values_.unshot[p]) += share_of_area_[s] * rho_of(reflectance_[p]) * received;
       }
     });
   };
-  if (one_channel_ && isGrey(d)) {
-    receiveAll(d.x, [](const glm::dvec3& rho) { return rho.x; });
+  const auto all = [](auto& colour) -> auto& { return colour; };
+  const int only = fewer_channels_ ? onlyChannel(d) : -1;
+  if (only >= 0) {
+    const auto one = [only](auto& colour) -> auto& { return colour[only]; };
+    receiveAll(d[only], one, one);
+  } else if (fewer_channels_ && grey_reflectance_ && isGrey(d)) {
+    receiveAll(d.x, all, [](const glm::dvec3& rho) { return rho.x; });
   } else {
-    receiveAll(d, [](const glm::dvec3& rho) { return rho; });
+    receiveAll(d, all, all);
   }
   values_.escaped_power += column.escape * area_[q] * d;
   values_.defect_power += column.defect * area_[q] * d;

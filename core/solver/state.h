@@ -25,9 +25,9 @@ class RadiosityState {
   RadiosityState(const Transport& transport, std::vector<glm::dvec3> emission,
                  std::vector<glm::dvec3> reflectance);
 
-  /// Where all reflectances are grey, what is shot that is grey too may go by one channel for all three: the
-  /// same to the last bit.
-  void allowOneChannel(bool allowed);
+  /// What is shot may go by one channel: for all three where it is grey and all reflectances are, the same to
+  /// the last bit, and alone where the other two are 0.
+  void allowFewerChannels(bool allowed);
   /// Nothing shot again.
   void reset();
 
@@ -107,7 +107,7 @@ class RadiosityState {
   std::vector<double> area_;
   std::vector<double> share_of_area_;  // of its patch, one per PatchShare of the receivers
   double emitted_power_ = 0;
-  bool one_channel_ = false;
+  bool fewer_channels_ = false, grey_reflectance_ = false;
   Values values_;
 };
 

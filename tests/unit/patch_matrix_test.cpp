@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -71,6 +72,53 @@ TEST(PatchMatrix, MultipliesWhatItWasGiven) {
       EXPECT_NEAR(image[p][c], arrives[c], 1e-6 * (1 + std::abs(arrives[c])));
       EXPECT_NEAR(mean[p][c], sent[c], 1e-6 * (1 + std::abs(sent[c])));
       EXPECT_NEAR(patches.matrix.transposed(p, x)[c], sent[c], 1e-6 * (1 + std::abs(sent[c])));
+    }
+  }
+}
+
+// Channels that are equal to the last bit, dark ones exactly, those in proportion to rounding; any that is
+// not quite, be it at one patch alone, as if nothing were left out.
+TEST(PatchMatrix, TakesChannelsFromOthersOnlyWhereTheyAreAlike) {
+  constexpr std::uint32_t kPatches = 50;
+  Patches patches(std::vector<double>(kPatches, 1.5));
+  for (std::uint32_t q = 0; q < kPatches; ++q) {
+    std::vector<float> factors(kPatches);
+    for (std::uint32_t p = 0; p < kPatches; ++p)
+      factors[p] = 0.001f * static_cast<float>(1 + (3 * p + 7 * q) % 23);
+    patches.set(q, factors);
+  }
+  using Field = std::vector<glm::dvec3>;
+  const auto products = [&](const Field& x, bool fewer) {
+    patches.matrix.allowFewerChannels(fewer);
+    std::array<Field, 2> out{Field(kPatches), Field(kPatches)};
+    patches.matrix.product(x, out[0]);
+    patches.matrix.transposed(x, out[1]);
+    return out;
+  };
+  const auto field = [](auto&& colour) {
+    Field x;
+    for (std::uint32_t p = 0; p < kPatches; ++p) x.push_back(colour(p % 3 == 1 ? 0.0 : 0.1 + 0.7 * p));
+    return x;
+  };
+  const auto expectSame = [&](const Field& x) { EXPECT_EQ(products(x, true), products(x, false)); };
+  expectSame(field([](double v) { return glm::dvec3(v); }));
+  expectSame(field([](double v) { return glm::dvec3(0, v, 0); }));
+  expectSame(field([](double v) { return glm::dvec3(v, 1 - v, 0); }));
+  expectSame(field([](double) { return glm::dvec3(0.0); }));
+  expectSame(field([](double v) { return glm::dvec3(v, v * v, v); }));
+  expectSame(field([](double v) { return glm::dvec3(v, v + 1e-6, v - 1e-6); }));
+  Field one_apart = field([](double v) { return glm::dvec3(v, 2 * v, 4 * v); });
+  expectSame(one_apart);  // powers of 2 round nothing
+  one_apart.back().y *= 1 + 1e-6;
+  one_apart[1].z = 1e-9;  // where the others are 0
+  expectSame(one_apart);
+  const Field warm = field([](double v) { return v * glm::dvec3(10, 9.6, 8.8); });
+  const auto fewer = products(warm, true), all = products(warm, false);
+  for (std::size_t k = 0; k < 2; ++k) {
+    for (std::uint32_t p = 0; p < kPatches; ++p) {
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(fewer[k][p][c], all[k][p][c], 1e-12 * all[k][p][c]);
+      // They are taken from it.
+      EXPECT_EQ(fewer[k][p].y, warm[0].y / warm[0].x * fewer[k][p].x);
     }
   }
 }
