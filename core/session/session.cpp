@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/thread_priority.h"
 #include "session/live_solve.h"
 
 namespace unshot {
@@ -38,6 +39,7 @@ struct Session::Impl {
 
   explicit Impl(SessionSetup setup_in) : setup(std::move(setup_in)) {
     thread = std::thread([this] {
+      workInBackground();
       run();
       closed = true;
       if (nobody_waits && setup.wake) setup.wake();
