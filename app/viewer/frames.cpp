@@ -315,6 +315,7 @@ void Viewer::paint(GLuint framebuffer, int width, int height) {
   const float background = static_cast<float>(srgbFromLinear(kBackground));
   fn.ClearColor(background, background, background, 1);
   fn.Clear(GL_COLOR_BUFFER_BIT);
+  if (!renderer().hardware && !coarse_rehearsed_) coarse_rehearsed_ = scene_.rehearseCoarse();
   const auto copy_scene = [this](int columns) { scene_.copyTo(columns); };
   copy_scene(scene_width_);
   if (referencePicture())

@@ -69,6 +69,8 @@ class SceneArea {
   std::uint64_t version() const;
   /// Copies the pictures to the lower left of the bound draw framebuffer, into `width` columns of pixels.
   void copyTo(int width) const;
+  /// As SceneDisplay's, of the first.
+  bool rehearseCoarse() const { return first_.rehearseCoarse(); }
 
   double exposure() const { return first_.exposure(); }
   bool gliding() const { return first_.gliding(); }

@@ -441,6 +441,17 @@ void SceneDisplay::endFiner() {
 
 void SceneDisplay::copyTo(int x, int width) const { copyPicture(context_.functions(), shown_, x, width); }
 
+bool SceneDisplay::rehearseCoarse() const {
+  if (shown_.width == 0) return false;
+  const gl::Functions& fn = context_.functions();
+  GLint read = 0;
+  fn.GetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read);
+  fn.BindFramebuffer(GL_READ_FRAMEBUFFER, shown_.framebuffer.id());
+  fn.BlitFramebuffer(0, 0, 1, 1, 0, 0, 2, 2, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  fn.BindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read));
+  return true;
+}
+
 void SceneDisplay::copyFinerTo(int x, int width) const {
   copyPicture(context_.functions(), finer_ ? finer_->picture : shown_, x, width);
 }

@@ -117,6 +117,10 @@ class SceneDisplay {
   /// Copies the picture, or as much of it as fits into `width` columns, to the bottom of the bound draw
   /// framebuffer, from column `x` on [px].
   void copyTo(int x, int width) const;
+  /// Copies a pixel of the picture to the lower left, larger, as those of a coarse one are copied. With the
+  /// first such copy a software renderer makes the code for it, some 40 ms: not when the camera first moves.
+  /// Returns whether there is a picture.
+  bool rehearseCoarse() const;
 
   /// Factor from linear values to about 1 for white, before exposure_ev.
   double exposure() const { return exposure_; }

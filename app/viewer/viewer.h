@@ -440,6 +440,7 @@ class Viewer {
   Camera seen_camera_;                           // that of the last frame
   std::optional<PaintedLook> painted_;
   bool drew_scene_ = false;  // since the last frame
+  bool coarse_rehearsed_ = false;
 
   Picking picking_;
   std::optional<glm::dvec2> pick_wanted_;
