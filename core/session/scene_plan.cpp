@@ -95,16 +95,13 @@ void addSides(const PlannedSolve& solve, std::vector<PlanDecision>& out) {
                             (unlit == 1 ? "is" : "are") + " in pictures only"));
 }
 
-// Values of two channels are in one proportion to within this share: rounding of decimal figures.
-constexpr double kInProportion = 1e-12;
-
 // Whether channel c is to channel `other` as everywhere, and reflected alike.
 bool areAlike(const PlannedSolve& solve, int c, int other) {
   double ratio = solve.sky[c] / solve.sky[other];  // not a number where there is no sky
   const auto sameRatio = [&](const glm::dvec3& light) {
     if (light == glm::dvec3(0.0)) return true;
     if (std::isnan(ratio)) ratio = light[c] / light[other];
-    return std::abs(light[c] - ratio * light[other]) <= kInProportion * light[c];
+    return isInProportion(light, c, ratio, other);
   };
   return sameRatio(solve.sky) &&
          std::all_of(solve.mesh.sides.begin(), solve.mesh.sides.end(), [&](const Side& s) {

@@ -23,8 +23,6 @@ constexpr std::uint64_t kShotsBeforeMore = 200;
 constexpr std::uint64_t kReceiversAtOnce = 1'000'000;
 // Of them so many along columns that have to be computed.
 constexpr std::uint64_t kColumnsAtOnce = 2;
-// For each column that is known: what a leap costs.
-constexpr double kShotsOfLeap = 0.3;
 // A check of the energy goes over all receivers, which a step may not.
 constexpr std::size_t kRecordsToACheck = 8;
 // Patches whose columns take a minute or two; with more, limits of time come before the first bounce.
@@ -245,29 +243,6 @@ void Solve::Impl::record() {
 void Solve::Impl::refine() {
   mode.reset();
   drafts.step(*transport, *state);
-}
-
-// Where a mesh is as fine as the error asks for, all of the light counts.
-bool Solve::Impl::endsNearTheTruth() const {
-  return mesh->for_error && !options.max_shots && !options.bounces;
-}
-
-// Once shots along columns at hand have cost as much as a leap does.
-bool Solve::Impl::leapIsDue() const {
-  if (leap.running()) return true;
-  const PatchMatrix& matrix = budget->matrix();
-  return options.mode == "auto" && mode_key == "southwell" && endsNearTheTruth() && measures.drafts == 0 &&
-         static_cast<double>(shots_at_hand) > kShotsOfLeap * static_cast<double>(matrix.knownCount()) &&
-         canLeapBy(matrix);
-}
-
-bool Solve::Impl::takeLeap() {
-  if (!leapIsDue()) return false;
-  if (!leap.running()) leap.begin(budget->matrix(), *state, *transport);
-  shots_at_hand = 0;
-  if (!leap.running()) return false;
-  measures.shots += leap.advance(*state, *transport);
-  return true;
 }
 
 // A step of the mode, or some where each is a shot along a column at hand or soon computed: looking at what

@@ -1,6 +1,7 @@
 // What a solve holds, for its own files alone:
 // - solve.cpp sets it up, takes its steps and changes what it is asked for;
 // - solve_queries.cpp answers what can be asked of it;
+// - solve_leap.cpp says when many shots are taken at once;
 // - solve_end.cpp says when and why it ends;
 // - row_closing.cpp closes its rows;
 // - idle_shooters.cpp says which patches need not shoot;

@@ -6,6 +6,8 @@
 #include <optional>
 #include <type_traits>
 
+#include "base/colour.h"
+
 namespace unshot {
 namespace {
 
@@ -29,10 +31,6 @@ double dotOf(const float* a, const double* b, std::size_t count) {
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-// Values of two channels are in proportion where each is to within this share: rounding, and far less than
-// what single precision leaves of P.
-constexpr double kInProportion = 1e-12;
-
 /// The channels that sums have to be worked out for, and each of the three as a multiple of one of them.
 struct OwnChannels {
   std::array<int, 3> own{0, 1, 2};
@@ -50,10 +48,8 @@ std::optional<double> proportion(std::span<const glm::dvec3> x, int c, int own) 
   const auto first = std::find_if(x.begin(), x.end(), [&](const glm::dvec3& v) { return v[own] != 0; });
   if (first == x.end()) return std::nullopt;
   const double factor = (*first)[c] / (*first)[own];
-  const bool all = std::all_of(x.begin(), x.end(), [&](const glm::dvec3& v) {
-    const double expected = factor * v[own];
-    return std::abs(v[c] - expected) <= kInProportion * std::abs(expected);
-  });
+  const bool all =
+      std::all_of(x.begin(), x.end(), [&](const glm::dvec3& v) { return isInProportion(v, c, factor, own); });
   return all ? std::optional(factor) : std::nullopt;
 }
 
