@@ -6,6 +6,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -45,11 +46,14 @@ void runSteps(Solve& solve, const InterruptFlag& interrupted, Progress& progress
     }
     solve.step(Solve::kMostAtOnce);
     const Measures& m = solve.measures();
-    if (solve.gathers()) {
+    if (solve.takesOver()) {
+      progress.update(solve.progress(), solve.activity());
+    } else if (solve.gathers()) {
       progress.update(solve.progress(), "final gathering");
     } else {
       progress.update({solve.progress(), m.unshot_fraction, m.solverBound(), m.shots, m.seconds - began});
     }
+    if (solve.takesOver()) continue;
     if (const std::optional<Error> failed = saver.offer(solve)) {
       std::cerr << "unshot: " << failed->fullText() << "\n  the solve goes on, and is saved again later"
                 << std::endl;
@@ -137,16 +141,46 @@ int concludeSolve(const Solve& solve, const SolveOptions& options, const Interru
               failure.advice() + "; what was reached is written");
 }
 
-/// Diagnostics from number `first` on.
-void printFrom(std::size_t first, const Diagnostics& all) {
-  printDiagnostics(std::cerr, Diagnostics(all.begin() + static_cast<std::ptrdiff_t>(first), all.end()));
+/// Prints each diagnostic once, whichever solve it is of.
+class Sayings {
+ public:
+  void print(const Diagnostics& all) {
+    Diagnostics fresh;
+    for (const Diagnostic& d : all)
+      if (said_.insert(d.code + d.message + d.where).second) fresh.push_back(d);
+    printDiagnostics(std::cerr, fresh);
+  }
+
+ private:
+  std::set<std::string> said_;
+};
+
+/// Goes on on the mesh for the error asked for; what was reached before stays where that comes to nothing.
+/// Returns whether it did not for want of time.
+bool refineMesh(std::unique_ptr<Solve>& solve, LazyContext& context, const InterruptFlag& interrupted,
+                Progress& progress, Saver& saver) {
+  progress.phase("refining the mesh");
+  std::unique_ptr<Solve> finer;
+  try {
+    finer = std::make_unique<Solve>(
+        *solve, [&]() -> gl::Context& { return context.get(); }, interrupted.token());
+  } catch (const Cancelled&) {
+  }
+  progress.finish();
+  if (!finer) return false;
+  runSteps(*finer, interrupted, progress, saver);
+  if (finer->takesOver() || finer->state() == SolveState::kFailed)
+    return finer->state() == SolveState::kLimit;
+  solve = std::move(finer);
+  estimateErrors(*solve, progress);
+  return false;
 }
 
 /// Writes and says what was reached; returns the exit code. `written`, `failure`: what was written before,
-/// and what could not be.
+/// and what could not be. `mesh_too_coarse`: for the error asked for, as there was no time to refine it.
 int finishSolve(const SolveRequest& request, const Solve& solve, LazyContext& context,
                 std::span<const Probe> probes, double load_seconds, const InterruptFlag& interrupted,
-                std::vector<std::string> written, std::optional<Error> failure) {
+                bool mesh_too_coarse, std::vector<std::string> written, std::optional<Error> failure) {
   const Snapshot snapshot = solve.snapshot();
   const auto record = [&] {
     RunRecord r = recordOf(solve);
@@ -171,7 +205,21 @@ int finishSolve(const SolveRequest& request, const Solve& solve, LazyContext& co
   printSummary(std::cout, record(), solve.options(), written);
   std::cout.flush();
   if (failure) throw *failure;
+  if (mesh_too_coarse) {
+    std::cerr << "unshot: not converged: the time was up before the mesh was as fine as "
+              << percentText(solve.options().error) << " asks for\n  try: a larger --max-seconds or --error"
+              << std::endl;
+    return kExitNotConverged;
+  }
   return concludeSolve(solve, solve.options(), interrupted);
+}
+
+/// Saves it where that is asked for.
+std::optional<Error> save(const Solve& solve, const SolveRequest& request, Saver& saver,
+                          std::vector<std::string>& written) {
+  std::vector<WriteJob> jobs;
+  if (!request.save.empty()) jobs.push_back({request.save, [&] { saver.save(solve); }});
+  return writeAll(std::move(jobs), written);
 }
 
 int solveScene(const SolveRequest& request, const InterruptFlag& interrupted) {
@@ -191,28 +239,33 @@ int solveScene(const SolveRequest& request, const InterruptFlag& interrupted) {
   Scene scene = readObj(request.scene, interrupted.token());
   const double load_seconds = wallSeconds() - load_began;
   progress.finish();
-  printDiagnostics(std::cerr, scene.diagnostics);
+  Sayings sayings;
+  sayings.print(scene.diagnostics);
   interrupted.token().check();
-  const std::size_t said = scene.diagnostics.size();
   progress.phase("meshing");
-  Solve solve(
+  auto solve = std::make_unique<Solve>(
       std::move(scene), options, [&]() -> gl::Context& { return context.get(); }, interrupted.token(),
       std::move(saved));
   progress.finish();
   interrupted.token().check();
-  printFrom(said, solve.diagnostics());
-  const std::size_t said_before_steps = solve.diagnostics().size();
+  sayings.print(solve->diagnostics());
   Saver saver(request.save, request.save_every);
-  runSteps(solve, interrupted, progress, saver);
+  runSteps(*solve, interrupted, progress, saver);
   // First, since it takes no memory, of which there may be none left.
-  std::vector<WriteJob> saving;
-  if (!request.save.empty()) saving.push_back({request.save, [&] { saver.save(solve); }});
   std::vector<std::string> written;
-  std::optional<Error> failure = writeAll(std::move(saving), written);
-  if (!interrupted.raised() && solve.state() != SolveState::kFailed) estimateErrors(solve, progress);
-  printFrom(said_before_steps, solve.diagnostics());
-  return finishSolve(request, solve, context, probes, load_seconds, interrupted, std::move(written),
-                     std::move(failure));
+  std::optional<Error> failure = save(*solve, request, saver, written);
+  bool mesh_too_coarse = false;
+  if (!interrupted.raised() && solve->state() != SolveState::kFailed) {
+    estimateErrors(*solve, progress);
+    if (solve->finerMeshError()) {
+      mesh_too_coarse = refineMesh(solve, context, interrupted, progress, saver);
+      written.clear();
+      failure = save(*solve, request, saver, written);
+    }
+  }
+  sayings.print(solve->diagnostics());
+  return finishSolve(request, *solve, context, probes, load_seconds, interrupted, mesh_too_coarse,
+                     std::move(written), std::move(failure));
 }
 
 int runSolve(const SolveRequest& request) {

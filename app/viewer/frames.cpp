@@ -68,7 +68,7 @@ double Viewer::nextPaint() const {
   const bool poses = screenshots_.posing() && (!screenshots_.panelsStand() || screenshotStands());
   if (gui_frames_ == 0 && !poses && !navigator_.moving()) {
     const bool waits = waitsForFiles() || looksForView() || scene_.waits(wanted()) || state_->saving ||
-                       state_->editing || state_->phase == SessionPhase::kLoading ||
+                       state_->editing || state_->refining || state_->phase == SessionPhase::kLoading ||
                        teaching_->preparing().has_value();
     return std::min(waits ? last_frame_ + kProgressSeconds : kNever, nextMeasure());
   }

@@ -53,6 +53,9 @@ std::vector<Task> Viewer::tasks() {
   if (state_->editing)
     out.push_back({state_->task, state_->task_done, "the materials before stay",
                    [this] { session_.giveUpLoading(); }, state_->task_began});
+  if (state_->refining)
+    out.push_back({state_->task, state_->task_done, "the mesh stays as it is",
+                   [this] { session_.giveUpLoading(); }, state_->task_began});
   if (state_->saving)
     out.push_back({state_->task, state_->task_done, "a file that is there stays as it was",
                    [this] { session_.giveUpSaving(); }, state_->task_began});

@@ -51,6 +51,13 @@ std::shared_ptr<const Mesh> withMaterials(const Mesh& mesh, const std::vector<Ma
   return out;
 }
 
+// Whether some side emits other light; the meshes have the same.
+bool emissionDiffers(const Mesh& a, const Mesh& b) {
+  for (std::size_t k = 0; k < a.sides.size(); ++k)
+    if (a.sides[k].emission != b.sides[k].emission) return true;
+  return false;
+}
+
 bool isMade(const std::vector<PlanDecision>& plan, const std::string& key) {
   return std::any_of(plan.begin(), plan.end(), [&](const PlanDecision& d) { return d.key == key; });
 }
@@ -101,6 +108,8 @@ void Solve::Impl::takeOver(Impl& before) {
                              decision.key == plan_keys::kFineness;
     if (of_the_mesh && !isMade(plan, decision.key)) plan.push_back(decision);
   }
+  mesh_error = before.mesh_error;
+  relit = before.relit || emissionDiffers(*before.mesh, *mesh);
   chooseMode(options.mode);
   Transport& theirs = *before.transport;
   std::vector<char> another(transport->patchCount());  // columns, as the patch begins or ceases to emit

@@ -67,7 +67,7 @@ void Lane::learnFacts(SolveOptions asked, double load_seconds) {
 
 SessionPhase Lane::phase(bool paused) const {
   if (broken()) return SessionPhase::kFailed;
-  switch (solve_->state()) {
+  switch (active().state()) {
     case SolveState::kRunning:
       return paused ? SessionPhase::kPaused : SessionPhase::kRunning;
     case SolveState::kConverged:
@@ -88,18 +88,57 @@ Solve& Lane::usable() {
   return *solve_;
 }
 
+void Lane::forgetFinerMesh() {
+  finer_.reset();
+  no_finer_mesh_ = false;
+}
+
+bool Lane::wantsFinerMesh() const {
+  if (broken() || finer_ || no_finer_mesh_) return false;
+  const std::optional<double> wanted = solve_->finerMeshError();
+  // That it is too coarse by estimate takes all places to say.
+  const bool sure = solve_->places() >= kPlacesAtRest && !estimates_stale_;
+  return wanted && (sure || *wanted >= solve_->options().error);
+}
+
+void Lane::refineMesh(const std::function<gl::Context&()>& gl, const CancelToken& cancel) {
+  no_finer_mesh_ = true;
+  finer_ = std::make_unique<Solve>(*solve_, gl, cancel);
+  no_finer_mesh_ = false;
+}
+
+void Lane::takeFinerMesh() {
+  if (finer_->state() != SolveState::kConverged) {
+    if (finer_->failure()) note_(*finer_->failure());
+    finer_.reset();
+    no_finer_mesh_ = true;
+    return;
+  }
+  looking_on_.reset();
+  solve_ = std::move(finer_);
+  no_more_places_ = no_more_bounces_ = false;
+  stale_ = estimates_stale_ = true;
+  pace_ = {};
+  last_estimate_seconds_ = 0;
+  history_.reset();
+  learnFacts(facts_->options, facts_->load_seconds);
+}
+
 void Lane::setMode(const std::string& key) {
+  forgetFinerMesh();
   usable().setMode(key);
   failure_noted_ = false;
   learnFacts(facts_->options, facts_->load_seconds);
 }
 
 void Lane::setError(double error) {
+  forgetFinerMesh();
   usable().setError(error);
   learnFacts(facts_->options, facts_->load_seconds);
 }
 
 void Lane::again() {
+  forgetFinerMesh();
   usable().again();
   if (looking_on_) {
     const InsightWanted wanted = looking_on_->wanted();
@@ -114,6 +153,7 @@ void Lane::again() {
 
 void Lane::edit(const std::vector<Material>& materials, const std::function<gl::Context&()>& gl,
                 const CancelToken& cancel) {
+  forgetFinerMesh();
   auto edited = std::make_unique<Solve>(usable(), materials, gl, cancel);
   const InsightWanted wanted = looking_on_ ? looking_on_->wanted() : InsightWanted();
   if (std::exchange(looking_on_, std::nullopt)) looking_on_.emplace(*edited).want(wanted);
@@ -149,6 +189,11 @@ void Lane::lookInto(const InsightWanted& wanted) {
 }
 
 void Lane::step(std::uint64_t most_shots) {
+  if (finer_) {
+    finer_->step(most_shots);
+    if (finer_->state() != SolveState::kRunning) takeFinerMesh();
+    return;
+  }
   const double before = solve_->errorSeconds();
   const bool alone = looking_on_ && most_shots == 1;
   const bool gathering = solve_->gathers();
@@ -311,8 +356,8 @@ LaneState Lane::state(bool resting, bool paused) const {
   state.radius_upper = solve_->bounds().spectralRadiusUpper();
   state.bounces_under_way = !broken() && hasBounceWork();
   state.spare_work = resting && hasSpareWork();
-  state.progress = solve_->progress();
-  state.activity = solve_->activity();
+  state.progress = active().progress();
+  state.activity = finer_ ? "refining the mesh" : solve_->activity();
   state.kept_bytes = solve_->keptBytes();
   if (looking_on_) state.insight = looking_on_->shown();
   if (resting) state.gathering = gathering();

@@ -27,7 +27,7 @@ class Lane {
   /// What a step threw: the solve takes no more and gives no more snapshots.
   bool broken() const { return broken_.has_value(); }
   /// Whether step() has something to do.
-  bool running() const { return !broken() && solve_->state() == SolveState::kRunning; }
+  bool running() const { return !broken() && active().state() == SolveState::kRunning; }
   SessionPhase phase(bool paused) const;
 
   /// Throws an Error where the solve is broken.
@@ -39,6 +39,11 @@ class Lane {
   void edit(const std::vector<Material>& materials, const std::function<gl::Context&()>& gl,
             const CancelToken& cancel);
   void completeBounces(bool wanted);
+  /// Whether the solve rests on a mesh that is too coarse for the error asked for (Solve::finerMeshError).
+  bool wantsFinerMesh() const;
+  /// Begins to go on on a finer mesh: it runs again, and shows what there was until that has converged.
+  /// Throws what Solve does; then it rests as before, and wants no more.
+  void refineMesh(const std::function<gl::Context&()>& gl, const CancelToken& cancel);
   /// What state() tells beside the snapshot from now on.
   void lookInto(const InsightWanted& wanted);
 
@@ -48,7 +53,7 @@ class Lane {
   /// a tenth of measures().seconds, the bounds as often as they come and estimates with a share of their own.
   double errorSeconds() const { return bound_seconds_ + estimate_seconds_; }
   /// Stops the clocks of the solve until its next step.
-  void rest() { solve_->rest(); }
+  void rest() { active().rest(); }
   /// Tells of a solve that has failed, once.
   void noteFailure();
 
@@ -72,6 +77,10 @@ class Lane {
 
  private:
   Solve& usable();
+  Solve& active() { return finer_ ? *finer_ : *solve_; }
+  const Solve& active() const { return finer_ ? *finer_ : *solve_; }
+  void forgetFinerMesh();
+  void takeFinerMesh();
   void learnFacts(SolveOptions asked, double load_seconds);
   void noteException() { note_(presentError()); }
   bool hasLight() const;
@@ -85,6 +94,8 @@ class Lane {
   bool wantsSnapshot(bool resting, double interval) const;
 
   std::unique_ptr<Solve> solve_;
+  std::unique_ptr<Solve> finer_;         // on a finer mesh: takes solve_'s place when it has converged
+  bool no_finer_mesh_ = false;           // it was given up, or failed
   std::optional<LookingOn> looking_on_;  // once that was asked for
   std::function<void(Error)> note_;
   std::optional<std::string> broken_;

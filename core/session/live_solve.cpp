@@ -83,26 +83,48 @@ void LiveSolve::takeSteps() {
   forEachLane([&](Lane& lane) {
     if (lane.running() && (!behind || seconds(lane) < seconds(*behind))) behind = &lane;
   });
+  const std::uint64_t cut = lane_->mesh()->cut;
   forEachLane([&](Lane& lane) {
     if (!lane.running() || (steps_left_ == 0 && &lane != behind)) return;
     lane.step(steps_left_ > 0 ? 1 : Solve::kMostAtOnce);
     if (rival_) lane.rest();
   });
+  if (lane_->solve().mesh().cut == cut) return;
+  lane_->lookInto(insight_);
+  ++epoch_;
 }
+
+// In a race both are on one mesh.
+bool LiveSolve::meshIsToBeRefined() const { return lane_ && !rival_ && lane_->wantsFinerMesh(); }
 
 bool LiveSolve::hasSpareWork() const {
   if (running() || !task_.empty()) return false;
-  bool any = false;
+  bool any = meshIsToBeRefined();
   forEachLane([&](const Lane& lane) { any = any || lane.hasSpareWork(); });
   return any;
 }
 
 void LiveSolve::spareWork() {
+  if (meshIsToBeRefined()) return refineMesh();
   Lane& lane = lane_->hasSpareWork() ? *lane_ : *rival_;
   const bool news = lane.spareWork(*setup_.interval);
   const bool tells = (lane.gathering() || lane.completing()) && wallSeconds() >= last_told_ + kTellSeconds;
   if (tells) last_told_ = wallSeconds();
   if (news || tells) publish();
+}
+
+// What a command was to wait for may be given up later.
+void LiveSolve::refineMesh() {
+  try {
+    const TaskBeside task(*this, "refining the mesh", &LiveSolve::refining_);
+    publish();
+    lane_->refineMesh([this]() -> gl::Context& { return context(); }, CancelToken(*setup_.given_up, &told_));
+  } catch (const Cancelled&) {
+  } catch (...) {
+    noteException();
+  }
+  settle();
+  publish();
 }
 
 void LiveSolve::perform(const command::Open& c) {
@@ -266,7 +288,7 @@ void LiveSolve::recover() {
 }
 
 SessionPhase LiveSolve::phase() const {
-  if (!task_.empty() && !saving_ && !editing_) return SessionPhase::kLoading;
+  if (!task_.empty() && !saving_ && !editing_ && !refining_) return SessionPhase::kLoading;
   if (!lane_) return SessionPhase::kEmpty;
   const bool rival_runs = rival_ && rival_->running();
   return (rival_runs ? *rival_ : *lane_).phase(paused_);
@@ -410,6 +432,7 @@ void LiveSolve::publish() {
     forEachLane([&](Lane& lane) { lane.refresh(!going || !lane.running(), *setup_.interval); });
   const bool rests = !going && task_.empty();
   if (lane_) static_cast<LaneState&>(*state) = lane_->state(rests, paused_);
+  state->spare_work = state->spare_work || (rests && meshIsToBeRefined());
   if (rival_) state->rival = rival_->state(rests, paused_);
   state->version = ++version_;
   state->epoch = epoch_;
@@ -423,6 +446,7 @@ void LiveSolve::publish() {
   state->completing_began = sinceWhen(completing_began_, state->completing.has_value());
   state->saving = saving_;
   state->editing = editing_;
+  state->refining = refining_;
   state->resumed = resumed_;
   state->problems = problems_;
   state->problem = problem_;

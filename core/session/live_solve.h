@@ -141,6 +141,8 @@ class LiveSolve {
   void offerToSaver();
   void saveKept();
   void takeSteps();
+  bool meshIsToBeRefined() const;
+  void refineMesh();
   void announce(const std::string& task);
   /// Tells of a task that leaves the phase as it is, for as long as it lives.
   class TaskBeside {
@@ -185,7 +187,7 @@ class LiveSolve {
   std::uint64_t steps_left_ = 0;  // before a pause; 0: no pause is due
   InsightWanted insight_;
   std::string task_;  // not empty while loading or in a task beside
-  bool saving_ = false, editing_ = false;
+  bool saving_ = false, editing_ = false, refining_ = false;
   double loading_began_ = 0, task_began_ = 0, last_told_ = 0;  // wall time
   std::optional<double> gathering_began_, completing_began_;   // wall time
   std::optional<double> task_done_;

@@ -66,9 +66,11 @@ std::shared_ptr<const Mesh> uniformMesh(const SurfacesOfScene& surfaces, const M
   return std::make_shared<const Mesh>(meshSurfaces(surfaces, options, cancel));
 }
 
+double meshError(const SolveOptions& options) { return options.mesh_error.value_or(options.error); }
+
 // As many as the error asks for, of a mesh to be refined, which has these sides.
 double baseElements(const SolveOptions& options, std::size_t sides) {
-  const double wanted = kBaseElements * std::pow(0.01 / options.error, 1 / kErrorOrder);
+  const double wanted = kBaseElements * std::pow(0.01 / meshError(options), 1 / kErrorOrder);
   const double fewest = std::max(kFewestBase, kForSides * static_cast<double>(sides));
   return std::min(std::min(std::max(wanted, fewest), kMostBase), static_cast<double>(options.max_elements));
 }
@@ -86,7 +88,7 @@ std::shared_ptr<const Mesh> baseMesh(const SurfacesOfScene& surfaces, MeshOption
 
 LightRefinement refinementFor(const SolveOptions& options, const std::string& method) {
   LightRefinement refinement;
-  refinement.error = options.error;
+  refinement.error = meshError(options);
   refinement.most_elements = options.max_elements;
   refinement.occlusion = method != "closed-form";
   refinement.seed = options.seed;
@@ -103,7 +105,7 @@ CoarseMesh coarseMesh(const SurfacesOfScene& surfaces, const SolveOptions& optio
   refinement.error *= kFinerLight;
   refinement.emitters = coarsest;
   CoarseMesh found = findCoarseMesh(
-      {.error = options.error,
+      {.error = meshError(options),
        .usual = usual,
        .seed = options.seed,
        .fewer_channels = leavesOut(options.do_anyway, plan_keys::kChannels),
@@ -112,7 +114,7 @@ CoarseMesh coarseMesh(const SurfacesOfScene& surfaces, const SolveOptions& optio
              return refineForLight(baseMesh(surfaces, mesh_options, elements, cancel), refinement, cancel);
            }},
       cancel);
-  if (found.mesh) plan.push_back(withoutFineness(*found.mesh, options.error, found.solved.error, usual));
+  if (found.mesh) plan.push_back(withoutFineness(*found.mesh, meshError(options), found.solved.error, usual));
   return found;
 }
 
@@ -168,7 +170,7 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
     if (follows != to_refine) out.mesh = meshed(follows);
     to_refine = follows;
     out.gathers = !by_rays && surfaces && litTriangles(surfaces->mesh).size() > kFewTriangles;
-    if (by_rays) decisions.push_back(withoutHemicubes(*out.mesh, options.error));
+    if (by_rays) decisions.push_back(withoutHemicubes(*out.mesh, meshError(options)));
   }
   surfaces.reset();
   if (to_refine && !coarse) {
@@ -176,7 +178,7 @@ Preparation prepare(const Scene& scene, const SolveOptions& options, const Cance
     refinement.emitters = coarsest;
     out.mesh = refineForLight(std::move(out.mesh), refinement, cancel);
   }
-  if (to_refine && out.mesh->base) decisions.push_back(withoutEvenLight(*out.mesh, options.error));
+  if (to_refine && out.mesh->base) decisions.push_back(withoutEvenLight(*out.mesh, meshError(options)));
   cancel.report(kMeshShare);
   const double plan_began = wallSeconds();
   out.plan = makePlan({scene, *out.mesh, out.form_factors, options.error, options.emit_front_only, out.sky,

@@ -82,13 +82,15 @@ struct SessionState : LaneState {
   std::uint64_t epoch = 0;                    ///< one more where shots count from 0 again; 0: none yet
   std::uint64_t commands = 0;                 ///< how many of the commands sent are carried out
   SessionPhase phase = SessionPhase::kEmpty;  ///< in a race kRunning or kPaused until both have ended
-  std::string task;  ///< while loading, saving or editing: what is being done, such as "reading room.obj"
+  std::string
+      task;  ///< while loading, saving, editing or refining: what is being done, such as "reading room.obj"
   std::optional<double> task_done;                   ///< how much of it, from 0 to 1, where that is known
   double task_began = 0;                             ///< wallSeconds() then
   double loading_began = 0;                          ///< the same, of the first task of what is being loaded
   double gathering_began = 0, completing_began = 0;  ///< the same, of LaneState::gathering and completing
   bool saving = false;                               ///< it is saving, which leaves the phase as it is
   bool editing = false;                              ///< it gets ready for other materials, likewise
+  bool refining = false;                             ///< it cuts a finer mesh, likewise
   std::optional<LaneState> rival;                    ///< in a race: the other solve
   std::optional<ResumedFrom> resumed;                ///< of the present solve, where it was saved before
   std::uint64_t problems = 0;                        ///< how many commands or solves have failed so far

@@ -59,6 +59,7 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl, const CancelT
   if (saved) restore(*saved);
   begin();
   if (saved) takeUp(*saved);
+  if (saved) mesh_error = saved->error;
   measure();
   if (!saved) history.push_back({measures});
 }
@@ -66,6 +67,7 @@ void Solve::Impl::prepare(const std::function<gl::Context&()>& gl, const CancelT
 // All that stands before the first shot.
 void Solve::Impl::setUp(const std::function<gl::Context&()>& gl, const CancelToken& cancel) {
   cpu_start = cpuSeconds();
+  mesh_error = options.mesh_error.value_or(options.error);
   Preparation prepared = unshot::prepare(scene, options, cancel);
   mesh = std::move(prepared.mesh);
   form_factors_key = std::move(prepared.form_factors);
@@ -307,6 +309,7 @@ void Solve::step(std::uint64_t most_shots) {
 }
 
 void Solve::Impl::advance(std::uint64_t most_shots) {
+  if (!hand_order.empty()) return sendHanded();
   if (finished_by) return sharpen();
   if (begun_solved && measures.shots == 0) return finishBegun();
   bool nothing_left = false;

@@ -42,6 +42,8 @@ struct SolveOptions {
   bool emit_front_only = false;
   std::optional<glm::dvec3> sky;  ///< radiosity of the sky [W/m^2]; without, see skyOver (scene/sky.h)
   double error = 0.01;            ///< stop when the bound of the solver's error is below Solve::solverTarget
+  std::optional<double>
+      mesh_error;  ///< a mesh that follows the light is as fine as this asks for, not `error`
   std::optional<double> max_seconds;
   std::optional<std::uint64_t> max_shots;
   /// Only the light of so many bounces, E + M E + ... + M^n E, whatever its error: the mode is `jacobi`,
@@ -98,6 +100,11 @@ class Solve {
   /// says no; kEnvironment: a mode that is not for these materials).
   Solve(Solve& before, const std::vector<Material>& materials, const std::function<gl::Context&()>& gl,
         const CancelToken& cancel = {});
+  /// Goes on from `before` on another mesh: as finerMeshError() of `before` says, which has to have a value.
+  /// What a patch has shot, those have that lie where it lies, and what the finer mesh finds otherwise is
+  /// unshot, of either sign. Clocks and counts go on. `before` stays as it is, and is what to show and to
+  /// save as long as takesOver().
+  Solve(const Solve& before, const std::function<gl::Context&()>& gl, const CancelToken& cancel = {});
   ~Solve();
   Solve(const Solve&) = delete;
   Solve& operator=(const Solve&) = delete;
@@ -123,6 +130,12 @@ class Solve {
   /// Shoots again from nothing in the present mode, with the form factors at hand: clocks, counts and history
   /// begin anew.
   void again();
+  /// The error that another mesh is to be made for, once the solve has converged: where this one follows the
+  /// light and was made for a larger error than is asked for now, or for other emitters and is by estimate
+  /// far from it. Nothing where it is as it should be or has as many elements as it may.
+  std::optional<double> finerMeshError() const;
+  /// Whether light of the solve before, on its coarser mesh, is still to be sent over this one.
+  bool takesOver() const;
   /// Estimates what form factors and mesh leave wrong in the present state, from so many more places than
   /// before; the solve's clocks rest, but its cpu_solve counts it.
   const ErrorEstimates& estimate(std::size_t more_places);
@@ -164,7 +177,7 @@ class Solve {
   bool gathers() const;  ///< whether it is
   /// What was gathered last and is shown; changes with every round of looks. Null: nothing.
   const void* gathered() const;
-  /// What the mode does besides shooting, such as "factorising"; empty: nothing, or it has ended.
+  /// What is done besides shooting, such as "factorising" by the mode; empty: nothing, or it has ended.
   std::string activity() const;
 
   // For reports.

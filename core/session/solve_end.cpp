@@ -233,13 +233,18 @@ void Solve::Impl::noteMissingRoom() {
                              (other_mode ? ", or the mode kept-first" : "")});
 }
 
-// Once, where the mesh was to be as fine as the error asks for and is far from it.
-void Solve::Impl::noteMissedError() {
+// Whether the mesh was to be as fine as the error asks for and is far from it.
+bool Solve::Impl::missesError() const {
   const ErrorEstimate& estimate = budget->estimates().total;
-  if (error_noted || !mesh->for_error || progress_state != SolveState::kConverged ||
-      estimate.low <= options.error || estimate.value < kFarAbove * options.error)
-    return;
+  return mesh->for_error && progress_state == SolveState::kConverged && estimate.low > options.error &&
+         estimate.value >= kFarAbove * options.error;
+}
+
+// Once.
+void Solve::Impl::noteMissedError() {
+  if (error_noted || !missesError()) return;
   error_noted = true;
+  const ErrorEstimate& estimate = budget->estimates().total;
   const auto percent = [](double x) { return figureText(100 * x) + " %"; };
   diagnostics.push_back({Severity::kWarning,
                          "error-missed",

@@ -7,6 +7,7 @@
 // - idle_shooters.cpp says which patches need not shoot;
 // - saved_solve.cpp writes it into a file and takes it up again;
 // - edited_solve.cpp goes on with other materials;
+// - finer_solve.cpp goes on on a finer mesh;
 // - solve_inside.cpp lets others look on.
 #pragma once
 
@@ -88,7 +89,13 @@ struct Solve::Impl {
   Leap leap;
   std::uint64_t shots_at_hand = 0;  // along columns at hand, since the last leap
   int local_passes_left = 0;
-  bool begun_solved = false;  // by the trial of its mesh, whose local pass is at its end too
+  bool begun_solved = false;              // by the trial of its mesh, whose local pass is at its end too
+  double mesh_error = 0;                  // that the mesh was made for
+  bool relit = false;                     // and that it was made for other emitters
+  bool on_finer_mesh = false;             // than it began on
+  std::vector<glm::dvec3> handed;         // S that the solve before hands over, one per source, and
+  std::vector<std::uint32_t> hand_order;  // whose is still to be sent, the last next
+  std::size_t handed_count = 1;           // of these, at the start
 
   Impl(Scene scene_in, SolveOptions options_in)
       : options(std::move(options_in)),
@@ -101,6 +108,11 @@ struct Solve::Impl {
   void begin();
   void endWithoutLight();
   void takeOver(Impl& before);
+  void takeLightOf(const Impl& before);
+  void sendHanded();
+  double shareTakenOver() const;
+  std::optional<double> finerMeshError() const;
+  bool missesError() const;
   void beginWith(SolvedAtOnce solved);
   SavedSolve head() const;
   void restore(SavedSolve& saved);

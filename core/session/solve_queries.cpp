@@ -7,6 +7,12 @@
 #include "session/solve_impl.h"
 
 namespace unshot {
+namespace {
+
+// Of the work on a finer mesh, until the light of the coarser one is sent over it.
+constexpr double kTakingOver = 0.9;
+
+}  // namespace
 
 // H with what the local pass adds, one per receiver.
 std::vector<glm::dvec3> Solve::Impl::shownIrradiance() const {
@@ -50,11 +56,13 @@ double Solve::progress() const {
   const Impl& s = *impl_;
   if (s.progress_state == SolveState::kConverged) return 1;
   if (gathers()) return s.final_gather->progress();
+  if (takesOver()) return kTakingOver * s.shareTakenOver();
   if (!std::isfinite(s.measures.unshot_fraction)) return 0;
   // Until there is a bound, what is unshot says how far it is.
   const double bound = s.measures.solverBound(), left = bound < kNoBound ? bound : s.measures.unshot_fraction;
   const double reached = std::log(std::max(left, 1e-300)) / std::log(s.target());
-  return std::clamp(reached, 0.0, 0.999);
+  const double before = s.on_finer_mesh ? kTakingOver : 0;
+  return before + (1 - before) * std::clamp(reached, 0.0, 0.999);
 }
 
 bool Solve::gathers() const { return impl_->final_gather && impl_->final_gather->running(); }
@@ -66,6 +74,7 @@ const void* Solve::gathered() const {
 std::string Solve::activity() const {
   const Impl& s = *impl_;
   if (s.progress_state != SolveState::kRunning) return {};
+  if (takesOver()) return "refining the mesh";
   if (gathers()) return "gathering";
   return s.mode ? s.mode->activity() : std::string();
 }

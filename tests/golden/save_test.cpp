@@ -54,6 +54,24 @@ TEST(Save, AnInterruptedSolveGoesOnWhereItWas) {
   expectSameLight(folder, "a.ply", "b.ply");
 }
 
+// A mesh that follows the light is cut again, with what was shot so far.
+TEST(Save, ASmallerErrorTakesAFinerMesh) {
+  const TempFolder folder;
+  writeRoom(folder, boxObj());
+  const std::vector<std::string> rays{"solve", "room.obj", "--form-factors", "rays"};
+  ASSERT_EQ(runProgram(folder, with(rays, {"--error", "0.1", "--save", "s.unshot"})).code, 0);
+  const ProgramResult finer = runProgram(folder, {"solve", "room.obj", "--resume", "s.unshot", "--error",
+                                                  "0.02", "--ply", "a.ply", "--report", "r.json"});
+  ASSERT_EQ(finer.code, 0) << finer.err;
+  ASSERT_EQ(runProgram(folder, with(rays, {"--error", "0.02", "--ply", "b.ply"})).code, 0);
+  // Both are within two fifths of the error of the same light.
+  EXPECT_EQ(runProgram(folder, {"compare", "a.ply", "b.ply", "--tolerance", "0.016"}).code, 0);
+  const ProgramResult late = runProgram(folder, {"solve", "room.obj", "--resume", "s.unshot", "--error",
+                                                 "0.001", "--max-seconds", "0.001", "--ply", "c.ply"});
+  EXPECT_EQ(late.code, 5) << late.err;
+  EXPECT_TRUE(folder.has("c.ply"));
+}
+
 // Ended at random moments, also while it saves: what is there then is whole, and goes on to the same light.
 TEST(Save, AKilledSolveGoesOnFromItsLastWholeFile) {
   const TempFolder folder;

@@ -131,7 +131,7 @@ inline void checkPublications(const std::vector<SessionWatch::Seen>& seen) {
     const SessionState& s = *seen[k].state;
     ASSERT_EQ(s.version, k + 1);
     ASSERT_EQ(s.problem.has_value(), s.problems > 0);
-    ASSERT_EQ(s.phase == SessionPhase::kLoading, !s.task.empty() && !s.saving && !s.editing);
+    ASSERT_EQ(s.phase == SessionPhase::kLoading, !s.task.empty() && !s.saving && !s.editing && !s.refining);
     ASSERT_EQ(s.facts == nullptr, s.epoch == 0);
     ASSERT_EQ(s.snapshot == nullptr, s.epoch == 0);
     if (k > 0) {

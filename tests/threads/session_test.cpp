@@ -38,6 +38,12 @@ TEST(Session, IsEmptyBeforeTheFirstScene) {
   checkPublications(watch.seen());
 }
 
+double meanRed(const SessionState& s) {
+  double sum = 0;
+  for (const glm::vec3& h : s.snapshot->irradiance) sum += static_cast<double>(h.x);
+  return sum / static_cast<double>(s.snapshot->irradiance.size());
+}
+
 struct PlainCase {
   const char* scene;
   std::uint64_t elements;
@@ -67,6 +73,69 @@ TEST(Session, ConvergesToWhatAPlainSolveFindsInEveryMode) {
       checkPublications(watch.seen());
     }
   }
+}
+
+// A smaller error asks for a finer mesh: the light before is shown until that has its own.
+TEST(Session, RefinesTheMeshWhereASmallerErrorIsAskedFor) {
+  SolveOptions options;
+  options.form_factors = "rays";
+  options.error = 0.06;
+  SessionWatch watch;
+  watch->setPublishInterval(0);
+  watch->open(asset("cornell_box.obj"), options);
+  const StatePointer coarse = watch.rested();
+  ASSERT_EQ(coarse->phase, SessionPhase::kConverged);
+  watch->setError(0.02);
+  const auto isFiner = [&](const SessionState& s) { return s.epoch > coarse->epoch; };
+  const StatePointer finer = watch.wait("a finer mesh", isFiner);
+  EXPECT_EQ(finer->phase, SessionPhase::kConverged);
+  EXPECT_GT(finer->facts->elements, coarse->facts->elements);
+  EXPECT_GT(finer->facts->patches, coarse->facts->patches);
+  EXPECT_GT(finer->measures.shots, coarse->measures.shots);
+  EXPECT_EQ(finer->facts->options.error, 0.02);
+  // It can be edited as before.
+  std::vector<Material> materials = finer->snapshot->mesh->materials;
+  for (Material& m : materials) m.reflectance *= 0.5;
+  watch->edit(materials);
+  EXPECT_EQ(watch.rested()->snapshot->mesh->materials, materials);
+  watch.close();
+  checkPublications(watch.seen());
+  bool refining = false;
+  for (const auto& seen : watch.seen()) {
+    const SessionState& s = *seen.state;
+    if (!s.snapshot || s.measures.shots < coarse->measures.shots || s.commands > 2) continue;
+    refining = refining || s.activity == "refining the mesh";
+    EXPECT_GT(meanRed(s), 0.5 * meanRed(*coarse)) << "darkness between";
+  }
+  EXPECT_TRUE(refining);
+}
+
+// What is asked for meanwhile is for the solve that is shown.
+TEST(Session, LeavesRefiningForWhatIsAskedMeanwhile) {
+  SolveOptions options;
+  options.form_factors = "rays";
+  options.error = 0.06;
+  SessionWatch watch;
+  watch->setPublishInterval(0);
+  watch->open(asset("cornell_box.obj"), options);
+  const StatePointer coarse = watch.rested();
+  watch->setError(0.01);
+  watch.wait("refining", [](const SessionState& s) { return s.activity == "refining the mesh"; });
+  watch->pause();
+  EXPECT_EQ(watch.carriedOut()->phase, SessionPhase::kPaused);
+  watch->resume();
+  std::vector<Material> materials = coarse->snapshot->mesh->materials;
+  for (Material& m : materials) m.reflectance *= 0.5;
+  watch->edit(materials);
+  const StatePointer finer =
+      watch.wait("a finer mesh", [&](const SessionState& s) { return s.epoch > coarse->epoch; });
+  EXPECT_EQ(finer->snapshot->mesh->materials, materials);
+  watch->setError(0.005);
+  watch.wait("refining again", [](const SessionState& s) { return s.activity == "refining the mesh"; });
+  watch->open(asset("furnace.obj"), closedForm(24, 1e-6));
+  EXPECT_EQ(watch.rested()->facts->scene_name, "furnace");
+  watch.close();
+  checkPublications(watch.seen());
 }
 
 // Each round of looks is shown, the last is what a plain solve ends with, and materials can be edited then.
