@@ -279,7 +279,8 @@ void Viewer::presented() {
   const double cost = std::exchange(picture_cost_, 0);
   if (!scene_.drawnAnew()) return;
   if (!scene_.coarse()) fine_cost_ = cost;
-  frame_cost_ = frame_cost_ == 0 ? cost : 0.8 * frame_cost_ + 0.2 * cost;
+  costs_.note(cost);
+  frame_cost_ = costs_.usual();
   // What would not be shown need not be made.
   const double share = renderer().hardware ? 1 : kSoftwareShare;
   session_.setPublishInterval(std::max(kSnapshotSeconds, share * frame_cost_));
@@ -296,7 +297,8 @@ ReferencePicture::Look Viewer::referenceLook() const {
 
 /// When the picture is to be compared with the reference again; infinity where that is done.
 double Viewer::nextMeasure() const {
-  if (!referencePicture() || !sceneStands() || coarse_ ||
+  // A picture that is still to be sharpened has other edges soon.
+  if (!referencePicture() || !sceneStands() || coarse_ || mayBeSharpened(kNever) ||
       !reference_picture_->unmeasured(scene_, scene_width_, scene_height_, referenceLook()))
     return kNever;
   return std::max(last_measured_ + kMeasureSeconds, last_motion_ + kRestSeconds);

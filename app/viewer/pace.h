@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <utility>
 
 namespace unshot {
 
@@ -26,6 +28,31 @@ class Pace {
 
  private:
   double rate_ = 0;  // units a second
+};
+
+/// What a picture costs as a rule. The first one of a kind takes a renderer some tenths of a second more, in
+/// which it makes the code for it: one in a few does not count.
+class PictureCosts {
+ public:
+  void note(double seconds) {
+    if (std::exchange(first_, false)) return;
+    last_[count_ % last_.size()] = seconds;
+    ++count_;
+  }
+  /// The median of the last ones, without the very first; 0 while there is none.
+  double usual() const {
+    std::array<double, kLast> sorted = last_;
+    const std::size_t known = std::min(count_, last_.size());
+    if (known == 0) return 0;
+    std::sort(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(known));
+    return sorted[(known - 1) / 2];
+  }
+
+ private:
+  static constexpr std::size_t kLast = 5;
+  std::array<double, kLast> last_{};
+  std::size_t count_ = 0;
+  bool first_ = true;
 };
 
 }  // namespace unshot

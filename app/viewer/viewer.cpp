@@ -147,10 +147,17 @@ void Viewer::takeState(double now) {
 /// Of a scene that emits nothing: the light in the picture is none of its own.
 void Viewer::noteSky() {
   const Diagnostics& notes = state_->facts->diagnostics;
-  const auto sky =
-      std::find_if(notes.begin(), notes.end(), [](const Diagnostic& d) { return d.code == "sky"; });
-  if (sky != notes.end())
+  const auto noteOf = [&](std::string_view code) {
+    return std::find_if(notes.begin(), notes.end(), [&](const Diagnostic& d) { return d.code == code; });
+  };
+  const auto sky = noteOf("sky"), missing = noteOf("missing-mtl");
+  if (sky == notes.end()) return;
+  if (missing != notes.end()) {
+    notice("No materials, so no light of its own: " +
+           windowWords(missing->message + ". Try: " + missing->advice));
+  } else {
     notice("No light of its own: " + windowWords(sky->message + ". To change it: " + sky->advice));
+  }
 }
 
 void Viewer::takeMaterials() {

@@ -30,6 +30,7 @@
 #include "viewer/memory.h"
 #include "viewer/messages.h"
 #include "viewer/navigator.h"
+#include "viewer/pace.h"
 #include "viewer/picking.h"
 #include "viewer/prompt.h"
 #include "viewer/reference_picture.h"
@@ -434,6 +435,7 @@ class Viewer {
   double last_scene_ = 0, last_scene_work_ = 0;  // begin and end of the last work on the scene
   int scene_width_ = 0, scene_height_ = 0;       // [px]
   double frame_cost_ = 0;                        // of a picture of the scene and the frame that shows it [s]
+  PictureCosts costs_;                           // of the last ones
   double fine_cost_ = 0;                         // of the last one with all its pixels
   double picture_cost_ = 0;                      // of the one being drawn, so far
   bool coarse_ = false;                          // pictures are, while the camera moves

@@ -16,6 +16,8 @@ constexpr std::size_t kPlacesInPassing = 128, kPlacesAtRest = 512, kPlacesAtOnce
 constexpr double kEstimateShare = 0.01;
 // What the first is taken to cost, of the time that meshing took: it looks at the whole mesh.
 constexpr double kFirstEstimate = 0.25;
+// Of the columns, which are computed at rest unasked.
+constexpr double kFewMissing = 0.02;
 // An estimate passes over the whole mesh: on a larger one it would be felt as a pause.
 constexpr std::size_t kMostElementsInPassing = 200'000;
 
@@ -231,8 +233,14 @@ bool Lane::hasLight() const {
   return solve_->measures().shots > 0 && std::isfinite(solve_->measures().unshot_fraction);
 }
 
+// Where few are missing, nobody has to ask.
+bool Lane::completesBounces() const {
+  const auto missing = static_cast<double>(solve_->bounceWait().columns);
+  return complete_bounces_ || missing <= kFewMissing * static_cast<double>(facts_->patches);
+}
+
 bool Lane::hasBounceWork() const {
-  return hasLight() && !no_more_bounces_ && solve_->hasBouncesToWorkOut(complete_bounces_);
+  return hasLight() && !no_more_bounces_ && solve_->hasBouncesToWorkOut(completesBounces());
 }
 
 bool Lane::spareWork(double interval) {
@@ -283,7 +291,7 @@ void Lane::refreshInsight(bool at_once) {
 bool Lane::workOutBounces(double interval) {
   try {
     if (complete_bounces_) most_missing_ = std::max(most_missing_, solve_->bounceWait().columns);
-    if (!solve_->workOutBounces(complete_bounces_)) return false;
+    if (!solve_->workOutBounces(completesBounces())) return false;
   } catch (...) {
     noteException();
     no_more_bounces_ = true;

@@ -85,6 +85,7 @@ class Lane {
   void noteException() { note_(presentError()); }
   bool hasLight() const;
   bool hasBounceWork() const;
+  bool completesBounces() const;
   bool workOutBounces(double interval);
   bool sumRows();
   bool gather();

@@ -9,6 +9,7 @@
 #include "render/element_edges.h"
 #include "support/live_viewer.h"
 #include "support/temp_folder.h"
+#include "viewer/pace.h"
 
 namespace unshot {
 namespace {
@@ -37,6 +38,20 @@ class ViewerFrames : public testing::Test {
 
   LiveViewer live_;
 };
+
+// The first picture holds the renderer's making of code, and so does one in a few later.
+TEST(PictureCosts, KnowWhatAPictureTakesAsARule) {
+  PictureCosts costs;
+  EXPECT_EQ(costs.usual(), 0);
+  costs.note(0.6);
+  EXPECT_EQ(costs.usual(), 0);
+  costs.note(0.04);
+  EXPECT_EQ(costs.usual(), 0.04);
+  for (const double cost : {0.05, 0.3, 0.06, 0.04}) costs.note(cost);
+  EXPECT_EQ(costs.usual(), 0.05);
+  for (int k = 0; k < 3; ++k) costs.note(0.2);
+  EXPECT_EQ(costs.usual(), 0.2) << "another scene";
+}
 
 TEST_F(ViewerFrames, AnswerWhileThePictureIsMade) {
   live_->perform("display", "mesh");  // all edges of all elements take long, in coarse pictures too

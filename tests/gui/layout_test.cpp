@@ -206,6 +206,14 @@ class Layout : public testing::TestWithParam<WindowSize> {
     out.insert(out.end(), {
                               {"the panel by Tab", {{"panel", ""}}, {}},
                               {"the panel by Tab again", {{"panel", ""}}, {{"panel", "on"}}},
+                              {"the lecture under the panel",
+                               {{"panel", ""}, {"panel", "on"}, {"lecture", ""}},
+                               {{"lecture", "off"}, {"panel", "on"}},
+                               "lecture"},
+                              {"the hemicube under the panel",
+                               {{"pick", "0.45,0.6"}, {"panel", ""}, {"panel", "on"}, {"hemicube-view", ""}},
+                               {{"hemicube-view", "off"}, {"unpick", ""}, {"panel", "on"}},
+                               "hemicube"},
                               {"the panel and a message", {message}, {off}, "message"},
                           });
     return out;

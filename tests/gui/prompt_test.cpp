@@ -16,10 +16,16 @@ using testing::IsEmpty;
 using testing_support::LiveViewer;
 using testing_support::TempFolder;
 
-std::vector<std::string_view> keysOf(const std::vector<const Action*>& rows) {
+std::vector<std::string_view> keysOf(const std::vector<FoundAction>& rows) {
   std::vector<std::string_view> keys;
-  for (const Action* row : rows) keys.push_back(row->key);
+  for (const FoundAction& row : rows) keys.push_back(row.action->key);
   return keys;
+}
+
+std::vector<std::string> textsOf(const std::vector<FoundAction>& rows) {
+  std::vector<std::string> texts;
+  for (const FoundAction& row : rows) texts.push_back(std::string(row.action->key) + " " + row.argument);
+  return texts;
 }
 
 TEST(ActionSearch, ListsAllWithoutATextAndNoneThatDoesNotHaveIt) {
@@ -28,8 +34,8 @@ TEST(ActionSearch, ListsAllWithoutATextAndNoneThatDoesNotHaveIt) {
   EXPECT_THAT(matchingActions("zebra"), IsEmpty());
   EXPECT_THAT(keysOf(matchingActions("CLEAR-P")), ElementsAre("clear-probes"));
   for (const Action& action : actions()) {
-    EXPECT_EQ(matchingActions(action.key).front(), &action) << action.key;
-    EXPECT_THAT(matchingActions(action.help), testing::Contains(&action));
+    EXPECT_EQ(matchingActions(action.key).front().action, &action) << action.key;
+    EXPECT_THAT(keysOf(matchingActions(action.help)), testing::Contains(action.key));
   }
 }
 
@@ -41,6 +47,19 @@ TEST(ActionSearch, PutsNamesBeforeDescriptions) {
   EXPECT_EQ(keys[2], "copy-camera");
   EXPECT_THAT(keysOf(matchingActions("angle zebra")), IsEmpty());
   EXPECT_THAT(keysOf(matchingActions("170 angle")), ElementsAre("fov"));
+}
+
+TEST(ActionSearch, FindsChoicesByNameAndTitle) {
+  EXPECT_THAT(textsOf(matchingActions("jacobi")), testing::IsSupersetOf({"mode jacobi", "race jacobi"}));
+  EXPECT_THAT(textsOf(matchingActions("colour zebra")), IsEmpty());
+  EXPECT_THAT(textsOf(matchingActions("colour Irradiance")), testing::Contains("display false-irradiance"));
+  EXPECT_THAT(textsOf(matchingActions("filmic")), testing::Contains("tone filmic"));
+  // Behind the name of an action its own alone, and itself where the choice is whole.
+  EXPECT_THAT(textsOf(matchingActions("display irr")),
+              testing::UnorderedElementsAre("display irradiance", "display false-irradiance"));
+  EXPECT_THAT(textsOf(matchingActions("display irradiance")), ElementsAre("display irradiance"));
+  EXPECT_THAT(textsOf(matchingActions("display zebra")), ElementsAre("display zebra"));
+  EXPECT_THAT(textsOf(matchingActions("fov 30")), ElementsAre("fov 30"));
 }
 
 TEST(ActionSearch, ReadsAnArgumentBehindTheName) {

@@ -39,6 +39,14 @@ std::string checkKey(std::span<const Row> table, bool with_auto, const std::stri
   return "there is no '" + text + "'; it is one of " + keys;
 }
 
+/// What all rows of a table have.
+template <class Row, std::span<const Row> (*table)()>
+std::vector<ChoiceInfo> rowsOf() {
+  std::vector<ChoiceInfo> out;
+  for (const Row& row : table()) out.push_back(row.info);
+  return out;
+}
+
 std::string checkSwitch(const std::string& text);
 /// "on", "off", or nothing: the other one.
 void setSwitch(bool& value, const std::string& text);

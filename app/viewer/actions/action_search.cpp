@@ -16,6 +16,15 @@ bool hasAllWords(const std::string& where, const std::string& text) {
   return true;
 }
 
+/// The choices whose key or title has all words of the text.
+void addChoices(const Action& action, const std::string& text, std::vector<FoundAction>& rows) {
+  if (!action.rows) return;
+  for (const ChoiceInfo& choice : action.rows()) {
+    if (hasAllWords(std::string(choice.key) + " " + lowered(choice.title), text))
+      rows.push_back({&action, std::string(choice.key), std::string(choice.title)});
+  }
+}
+
 }  // namespace
 
 TypedAction typedAction(std::string_view text) {
@@ -27,30 +36,41 @@ TypedAction typedAction(std::string_view text) {
   return {};
 }
 
-std::vector<const Action*> matchingActions(std::string_view text) {
+std::vector<FoundAction> matchingActions(std::string_view text) {
+  const TypedAction typed = typedAction(text);
+  if (typed.action) {
+    std::vector<FoundAction> rows;
+    addChoices(*typed.action, lowered(typed.argument), rows);
+    const bool whole = std::any_of(rows.begin(), rows.end(),
+                                   [&](const FoundAction& row) { return row.argument == typed.argument; });
+    if (whole || rows.empty()) return {{typed.action, typed.argument, {}}};
+    return rows;
+  }
   const std::string wanted = lowered(trimmed(text));
-  std::array<std::vector<const Action*>, 4> found;
+  enum Rank { kSame, kBegins, kHas, kChoice, kSays, kRanks };
+  std::array<std::vector<FoundAction>, kRanks> found;
   for (const ActionGroup& group : actionGroups()) {
-    for (const Action& action : group.actions) {
+    for (const Action& row : group.actions) {
+      // actionGroups() and actions() hold the same rows; what is found is of the latter.
+      const Action& action = findAction(row.key);
       const std::string key(action.key);
       const std::size_t at = key.find(wanted);
       const std::string all =
           key + " " + lowered(action.argument) + " " + lowered(action.help) + " " + lowered(group.title);
       if (key == wanted) {
-        found[0].push_back(&action);
+        found[kSame].push_back({&action, {}, {}});
       } else if (at == 0) {
-        found[1].push_back(&action);
+        found[kBegins].push_back({&action, {}, {}});
       } else if (at != std::string::npos) {
-        found[2].push_back(&action);
+        found[kHas].push_back({&action, {}, {}});
       } else if (hasAllWords(all, wanted)) {
-        found[3].push_back(&action);
+        found[kSays].push_back({&action, {}, {}});
       }
+      if (!wanted.empty()) addChoices(action, wanted, found[kChoice]);
     }
   }
-  std::vector<const Action*> rows;
+  std::vector<FoundAction> rows;
   for (const auto& some : found) rows.insert(rows.end(), some.begin(), some.end());
-  // actionGroups() and actions() hold the same rows; what is found is of the latter.
-  for (const Action*& row : rows) row = &findAction(row->key);
   return rows;
 }
 

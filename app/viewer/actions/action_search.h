@@ -16,9 +16,17 @@ struct TypedAction {
 };
 TypedAction typedAction(std::string_view text);
 
+/// An action, or one with a choice of its argument.
+struct FoundAction {
+  const Action* action = nullptr;
+  std::string argument;  ///< key of the choice; empty: none
+  std::string title;     ///< of the choice
+};
+
 /// The actions that have all words of the text in their name, argument, help or the title of their group:
 /// first the one of this name, then those whose name begins with the text, those that have it there, and the
-/// others, each in the order of the table.
-std::vector<const Action*> matchingActions(std::string_view text);
+/// others, each in the order of the table. Behind those whose name has the text come choices whose name or
+/// title has all of it; of an action that is typed, those that have what stands behind its name.
+std::vector<FoundAction> matchingActions(std::string_view text);
 
 }  // namespace unshot

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/choice.h"
+
 namespace unshot {
 
 class Viewer;
@@ -33,6 +35,8 @@ struct Action {
   std::string (*check)(const std::string& argument) = nullptr;
   /// A script waits with it until the scene is loaded, framed, and earlier commands are carried out.
   bool when_settled = false;
+  /// Rows of the table that the argument is a key of; null where it is none.
+  std::vector<ChoiceInfo> (*rows)() = nullptr;
 
   bool needsArgument() const { return !argument.empty() && argument.front() != '['; }
   /// Of the argument; empty where it is no choice.

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "viewer/actions/action_arguments.h"
+#include "viewer/panels/lecture_panel.h"
 #include "viewer/teaching.h"
 #include "viewer/viewer.h"
 
@@ -49,6 +50,18 @@ std::string checkReflectanceOfAll(const std::string& text) {
   return number && *number >= 0.5 && *number <= 1.2 ? "" : "'" + text + "' is no number from 0.5 to 1.2";
 }
 
+/// What lies beside the scene is hidden by a panel over it, which goes where it is asked for.
+void showBeside(Viewer& viewer, bool& shown, const std::string& text) {
+  ViewerState& ui = viewer.ui();
+  const bool covered = ui.panel && ui.panel_over && !panelHasRoom(viewer);
+  if (covered && text.empty()) {
+    shown = true;
+  } else {
+    setSwitch(shown, text);
+  }
+  if (covered && shown) ui.panel = false;
+}
+
 }  // namespace
 
 std::span<const Action> lectureActions() {
@@ -57,7 +70,7 @@ std::span<const Action> lectureActions() {
        "[on|off]",
        "Show or hide what the picked patch, or the one that shoots, sees through its hemicube",
        {GLFW_KEY_U, false, "U"},
-       [](Viewer& v, const std::string& a) { setSwitch(v.teaching().choices.hemicube, a); },
+       [](Viewer& v, const std::string& a) { showBeside(v, v.teaching().choices.hemicube, a); },
        checkSwitch},
       {"hemicube-picture",
        "KEY",
@@ -66,7 +79,9 @@ std::span<const Action> lectureActions() {
        [](Viewer& v, const std::string& a) {
          v.teaching().choices.picture = findChoice(hemicubePictures(), a, "picture of a hemicube").colours;
        },
-       [](const std::string& a) { return checkKey(hemicubePictures(), false, a); }},
+       [](const std::string& a) { return checkKey(hemicubePictures(), false, a); },
+       false,
+       rowsOf<HemicubePictureRow, hemicubePictures>},
       {"hemicube-pixel",
        "X,Y|off",
        "Mark what is seen there in the hemicube, from 0,0 (left, top) to 1,1, as the mouse does",
@@ -80,7 +95,7 @@ std::span<const Action> lectureActions() {
        "[on|off]",
        "Show or hide the lecture: matrix, equation, single shots, effects",
        {GLFW_KEY_T, false, "T"},
-       [](Viewer& v, const std::string& a) { setSwitch(v.teaching().choices.lecture, a); },
+       [](Viewer& v, const std::string& a) { showBeside(v, v.teaching().choices.lecture, a); },
        checkSwitch},
       {"lecture-page",
        "KEY",
@@ -88,9 +103,11 @@ std::span<const Action> lectureActions() {
        {},
        [](Viewer& v, const std::string& a) {
          v.teaching().choices.page = findChoice(lecturePages(), a, "page of the lecture").page;
-         v.teaching().choices.lecture = true;
+         showBeside(v, v.teaching().choices.lecture, "on");
        },
-       [](const std::string& a) { return checkKey(lecturePages(), false, a); }},
+       [](const std::string& a) { return checkKey(lecturePages(), false, a); },
+       false,
+       rowsOf<LecturePageRow, lecturePages>},
       {"matrix-power",
        "K",
        "Which power of M, or partial sum up to it, the lecture shows",

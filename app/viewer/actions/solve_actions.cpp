@@ -104,7 +104,9 @@ std::span<const Action> solveActions() {
        "Iterate in another way; what was shot and received stays",
        {},
        [](Viewer& v, const std::string& a) { v.setMode(a); },
-       [](const std::string& a) { return checkKey(iterationModes(), true, a); }},
+       [](const std::string& a) { return checkKey(iterationModes(), true, a); },
+       false,
+       rowsOf<IterationModeRow, iterationModes>},
       {"race",
        "KEY|off",
        "Both from nothing: this iteration mode against another, side by side",
@@ -114,7 +116,9 @@ std::span<const Action> solveActions() {
          if (a == "off") return std::string();
          const std::string wrong = checkKey(iterationModes(), true, a);
          return wrong.empty() ? wrong : wrong + ", off";
-       }},
+       },
+       false,
+       rowsOf<IterationModeRow, iterationModes>},
       {"form-factors",
        "KEY",
        "Solve again with another form-factor method",
@@ -123,7 +127,9 @@ std::span<const Action> solveActions() {
          v.ui().options.form_factors = a;
          v.restart();
        },
-       [](const std::string& a) { return checkKey(formFactorMethods(), true, a); }},
+       [](const std::string& a) { return checkKey(formFactorMethods(), true, a); },
+       false,
+       rowsOf<FormFactorMethodRow, formFactorMethods>},
       {"elements",
        "N",
        "Solve again on a mesh of about N elements (0: chosen)",

@@ -59,7 +59,8 @@ std::string titleOf(const Viewer& viewer, const DisplayMode& mode, const FalseCo
 /// Why there is nothing to show; empty where there is.
 const char* missingText(const Viewer& viewer, Quantity quantity) {
   const Snapshot& snapshot = *viewer.shownSnapshot();
-  if (quantity == Quantity::kBounces && !snapshot.bounces) return "not known yet";
+  if (quantity == Quantity::kBounces && !snapshot.bounces)
+    return "not known yet: form factors are missing (section Bounces, Compute them at rest)";
   if (quantity == Quantity::kResidual && !snapshot.residual)
     return "not known yet: estimated once the solve rests";
   const ViewOptions& view = viewer.settings().view;

@@ -16,10 +16,12 @@
 namespace unshot {
 namespace {
 
+constexpr double kBytesOfEntry = 8;            // double precision
 constexpr double kColourDecades = 4;           // that the heat map's colours go over
 constexpr float kLegend = 0.7f, kBars = 4.5f;  // heights in letters
 constexpr float kWideLine = 30;                // has room for all choices of the matrix, in letters' heights
 constexpr std::size_t kTermsShown = 24;
+constexpr ImU32 kNotComputed = IM_COL32(62, 64, 70, 255);
 const ImVec4 kRed{1.0f, 0.38f, 0.33f, 1};
 
 ImU32 colourAt(double place) {
@@ -96,7 +98,8 @@ std::optional<MatrixCell> chosenCell(const Teaching& teaching) {
 /// A square of cells, `side` pixels wide.
 void heatMap(Viewer& viewer, const char* id, const std::vector<double>& values, const std::string& name,
              float side) {
-  const std::size_t n = viewer.teaching().insight()->matrix->size();
+  const std::vector<GatheredMatrix::Group>& groups = viewer.teaching().insight()->matrix->groups;
+  const std::size_t n = groups.size();
   const double most = *std::max_element(values.begin(), values.end());
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -107,7 +110,7 @@ void heatMap(Viewer& viewer, const char* id, const std::vector<double>& values, 
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j)
       list.AddRectFilled({edge(at.x, j), edge(at.y, i)}, {edge(at.x, j + 1), edge(at.y, i + 1)},
-                         heatColour(values[i * n + j], most));
+                         groups[j].sends ? heatColour(values[i * n + j], most) : kNotComputed);
   }
   const bool hovered = ImGui::IsItemHovered();
   const ImVec2 mouse = ImGui::GetMousePos();
@@ -152,6 +155,9 @@ void map(Viewer& viewer, const char* id, const std::vector<double>& values, cons
   ImGui::TextUnformatted(name.c_str());
   heatMap(viewer, id, values, name, side);
   legend(*std::max_element(values.begin(), values.end()), side);
+  const auto& groups = viewer.teaching().insight()->matrix->groups;
+  if (std::any_of(groups.begin(), groups.end(), [](const auto& group) { return !group.sends; }))
+    dimmed("grey: not computed, for no light leaves there");
   ImGui::EndGroup();
 }
 
@@ -226,8 +232,11 @@ void terms(Viewer& viewer) {
   const bool endless = series.terms() != SeriesTerms::kShrink;
   const float em = ImGui::GetFontSize(), height = kBars * em,
               width = std::floor(ImGui::GetContentRegionAvail().x);
-  ImGui::TextUnformatted("Size of the terms M^k");
-  tooltip("The largest row sum of M^k: what k bounces make of a radiosity of 1 everywhere, at most");
+  ImGui::TextUnformatted("Size of the terms M^k, each line a tenth");
+  tooltip(
+      "The largest row sum of M^k: what k bounces make of a radiosity of 1 everywhere, at most. The scale is "
+      "logarithmic, from one line to the next ten times as much: what grows or falls by the same factor with "
+      "each bounce makes a straight row");
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("##terms", {width, height + 1.1f * em});
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -235,6 +244,10 @@ void terms(Viewer& viewer) {
   for (std::size_t k = 0; k <= kTermsShown; ++k) most = std::max(most, series.norm(k));
   const double decades = std::max(3.0, std::ceil(std::log10(most)) + 3), top = std::log10(most);
   const float slot = width / static_cast<float>(kTermsShown + 1);
+  for (double decade = std::floor(top); decade > top - decades; --decade) {
+    const float y = at.y + height * static_cast<float>((top - decade) / decades);
+    list.AddRectFilled({at.x, y}, {at.x + width, y + 1}, ImGui::GetColorU32(ImGuiCol_Text, 0.15f));
+  }
   for (std::size_t k = 0; k <= kTermsShown; ++k) {
     const double size = series.norm(k);
     const double share = size > 0 ? std::clamp(1 + (std::log10(size) - top) / decades, 0.0, 1.0) : 0;
@@ -259,8 +272,8 @@ void terms(Viewer& viewer) {
 std::string_view termsText(SeriesTerms terms) {
   switch (terms) {
     case SeriesTerms::kGrow:
-      return ". Each bounce adds more than the one before: the series has no sum, for where nothing is "
-             "absorbed light never ends";
+      return ". Each bounce adds more than the one before: the series has no sum, for walls that "
+             "return more light than they get never come to rest";
     case SeriesTerms::kStay:
       return ". Each bounce adds as much as the one before and the sum grows without end, for where nothing "
              "is absorbed light never ends";
@@ -303,12 +316,14 @@ void lightLine(Viewer& viewer) {
 
 void memoryLine(Viewer& viewer) {
   const SessionState& state = viewer.state();
-  const auto n = static_cast<double>(state.facts->patches);
-  wrapped("In full M has " + countText(state.facts->patches) + "\u00b2 entries, " + memoryText(8 * n * n) +
+  const auto n = static_cast<double>(state.facts->elements);
+  wrapped("In full M has " + countText(state.facts->elements) + "\u00b2 entries, " +
+          memoryText(kBytesOfEntry * n * n) +
           "; kept of K: " + memoryText(static_cast<double>(state.kept_bytes)));
   tooltip(
-      "Patches squared, 8 bytes each. The solver keeps the columns of K that it has shot along, 4 bytes an "
-      "element and only where light arrives; M itself is never made");
+      "Elements squared, 8 bytes each: each element on its own. The solver keeps columns of K for patches of "
+      "several elements, those that it has shot along, 4 bytes an element and only where light arrives; M "
+      "itself is never made");
 }
 
 void computeMissing(Viewer& viewer) {

@@ -147,9 +147,10 @@ void shotText(Viewer& viewer) {
   const SessionState& state = viewer.state();
   const ShotInsight* shot = insight ? insight->shot.get() : nullptr;
   if (!shot) {
-    dimmed(
-        "Step shoots once: the patch with the most unshot power sends it all, and what that was is told "
-        "here.");
+    dimmed(state.phase == SessionPhase::kConverged
+               ? "The solve has converged: Again shoots anew from nothing, and Step then once at a time."
+               : "Step shoots once: the patch with the most unshot power sends it all, and what that was is "
+                 "told here.");
     return;
   }
   if (shot->moved == 0) {

@@ -127,22 +127,28 @@ void enterAction(Viewer& viewer, const Action& action, const std::string& argume
   viewer.perform(action.key, argument);
 }
 
-std::string nameOf(const Action& action) {
-  return std::string(action.key) + (action.argument.empty() ? "" : " " + std::string(action.argument));
+std::string nameOf(const FoundAction& found) {
+  const std::string argument = found.title.empty() ? std::string(found.action->argument) : found.argument;
+  return std::string(found.action->key) + (argument.empty() ? "" : " " + argument);
+}
+
+/// Of the choice, or of the action.
+std::string_view helpOf(const FoundAction& found) {
+  return found.title.empty() ? found.action->help : std::string_view(found.title);
 }
 
 /// Name, help where there is room for it, key; true where it is clicked.
-bool actionRow(Prompt& prompt, std::size_t k, const Action& action) {
+bool actionRow(Prompt& prompt, std::size_t k, const FoundAction& found) {
   const float size = ImGui::GetFontSize(), width = ImGui::GetContentRegionMax().x;
-  const std::string shortcut(action.shortcut.text);
+  const std::string shortcut(found.title.empty() ? found.action->shortcut.text : std::string_view());
   const float keys = shortcut.empty() ? 0 : ImGui::CalcTextSize(shortcut.c_str()).x;
   const float room = width - keys - (shortcut.empty() ? 0 : size);
-  const std::string name = shortened(nameOf(action), room);
+  const std::string name = shortened(nameOf(found), room);
   const bool clicked = row(prompt, k, name);
   const float help = std::max(kHelpColumn * size, ImGui::CalcTextSize(name.c_str()).x + size);
   if (width > kHelpBeside * size && room > help + 4 * size) {
     ImGui::SameLine(help);
-    ImGui::TextDisabled("%s", shortened(std::string(action.help), room - help).c_str());
+    ImGui::TextDisabled("%s", shortened(std::string(helpOf(found)), room - help).c_str());
   }
   if (!shortcut.empty()) {
     ImGui::SameLine(width - keys);
@@ -157,23 +163,23 @@ void actionsPrompt(Viewer& viewer, float height) {
   if (entered == Entered::kEscape) return prompt.close();
   const std::string text = prompt.text.data();
   const TypedAction typed = typedAction(text);
-  const std::vector<const Action*> found =
-      typed.action ? std::vector<const Action*>{typed.action} : matchingActions(text);
+  const std::vector<FoundAction> found = matchingActions(text);
   moveChosen(prompt, entered, found.size());
   std::optional<std::size_t> wanted;
   if (entered == Entered::kEnter && !found.empty()) wanted = prompt.chosen;
   if (entered == Entered::kTab && !found.empty())
-    prompt.replacement = std::string(found[prompt.chosen]->key) + " ";
+    prompt.replacement = std::string(found[prompt.chosen].action->key) + " " + found[prompt.chosen].argument;
   ImGui::BeginChild("rows", {0, height});
   for (std::size_t k = 0; k < found.size(); ++k) {
-    if (actionRow(prompt, k, *found[k])) wanted = k;
+    if (actionRow(prompt, k, found[k])) wanted = k;
   }
   ImGui::EndChild();
-  const Action* chosen = found.empty() ? nullptr : found[prompt.chosen];
-  if (prompt.wrong.empty() && typed.action && !typed.argument.empty())
+  const FoundAction* chosen = found.empty() ? nullptr : &found[prompt.chosen];
+  if (prompt.wrong.empty() && typed.action && !typed.argument.empty() && chosen->title.empty())
     prompt.wrong = checkArgument(*typed.action, typed.argument);
-  below(prompt, chosen ? std::string(chosen->help) : "No action has this in its name or its description");
-  if (wanted) enterAction(viewer, *found[*wanted], typed.argument);
+  below(prompt,
+        chosen ? std::string(chosen->action->help) : "No action has this in its name or its description");
+  if (wanted) enterAction(viewer, *found[*wanted].action, found[*wanted].argument);
 }
 
 // Files.

@@ -77,11 +77,13 @@ void chooseError(Viewer& viewer) {
       {{"0.1", 0.1}, {"0.03", 0.03}, {"0.01", 0.01}, {"0.003", 0.003}, {"0.001", 0.001}, {"0.0001", 0.0001}}};
   label("Stop at",
         "The solve ends when its error, RMS of B \u2212 B* over RMS of B* \u2212 E [%], is proven to be "
-        "below this; a smaller one "
-        "goes on from "
-        "there");
+        "below this. On an even mesh that is the solver's error alone: what mesh and form factors add is "
+        "estimated beside it, and \"error about\" is of all. A smaller one goes on from there, on a finer "
+        "mesh where that follows the light");
   const double error = viewer.ui().options.error;
-  if (!ImGui::BeginCombo("##error", (percentText(error) + " error").c_str())) return;
+  const std::shared_ptr<const Snapshot>& snapshot = viewer.state().snapshot;
+  const char* const of_what = snapshot && !snapshot->mesh->for_error ? " solver error" : " error";
+  if (!ImGui::BeginCombo("##error", (percentText(error) + of_what).c_str())) return;
   for (const Choice& choice : kChoices) {
     if (ImGui::Selectable((percentText(choice.error) + " error").c_str(), choice.error == error))
       viewer.perform("error", choice.key);

@@ -17,6 +17,8 @@
 namespace unshot {
 namespace {
 
+// Readable over a bright scene too: 6 : 1.
+const ImVec4 kPartColour{0.73f, 0.73f, 0.73f, 1};
 constexpr float kLineHeight = 1.5f;  // in letters' heights
 constexpr float kGapOfParts = 1.1f;  // between two parts, the same
 constexpr std::array<const char*, 4> kWidePhases = {"Refining form factors", "Converged, estimating",
@@ -150,7 +152,7 @@ float buildStatusLine(Viewer& viewer, int scene_width) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0, window.y - height});
   ImGui::SetNextWindowSize({static_cast<float>(scene_width), height});
-  ImGui::SetNextWindowBgAlpha(0.8f);
+  ImGui::SetNextWindowBgAlpha(0.92f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
@@ -179,7 +181,7 @@ float buildStatusLine(Viewer& viewer, int scene_width) {
     if (at + width > end) break;
     if (!part.text.empty()) {
       ImGui::SameLine(at);
-      ImGui::TextDisabled("%s", part.text.c_str());
+      ImGui::TextColored(kPartColour, "%s", part.text.c_str());
       tooltip(part.tip);
     }
     at += width + kGapOfParts * em;
