@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/clock.h"
+#include "base/text.h"
 #include "session/pick.h"
 #include "viewer/viewer.h"
 
@@ -37,7 +38,8 @@ void Viewer::navigate(double seconds) {
   if (!io.WantCaptureMouse && io.MouseWheel != 0) {
     if (io.MouseDown[ImGuiMouseButton_Right]) {
       navigator_.scaleSpeed(std::pow(1.25, io.MouseWheel));
-      passingNotice("flying " + std::string(io.MouseWheel > 0 ? "faster" : "slower"));
+      passingNotice("flying " + std::string(io.MouseWheel > 0 ? "faster" : "slower") + ": " +
+                    figureText(navigator_.speedFactor()) + " times the usual speed");
     } else {
       zoomAtMouse(io.MouseWheel);
     }

@@ -20,7 +20,7 @@ constexpr std::size_t kFewestFinePieces = 2'000;  // of pictures with many sampl
 constexpr double kBandSamples = 1e6;              // of such a picture at a time; 20 bytes each
 constexpr std::size_t kFewestRows = 64;
 constexpr std::size_t kMarkedAtOnce = 20'000;  // triangles, whose marks take some milliseconds to find
-constexpr std::size_t kMostMerged = 60'000;    // triangles of a coarse picture, aimed at: some 20 ms
+constexpr std::size_t kMostMerged = 25'000;    // triangles of a coarse picture, aimed at: some 10 ms
 constexpr std::size_t kFewestBytes = 1 << 20;
 
 /// Whether samples that were drawn are also those of the other one.

@@ -67,7 +67,6 @@ struct SceneRays::Impl {
   std::uint32_t occluded(Trace trace, const glm::dvec3& a, std::span<const glm::dvec3> b) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     Rays rays;
     alignas(64) int valid[kMost];
     const glm::dvec3 origin = scale * a;

@@ -141,7 +141,12 @@ class LightQuestion {
     std::vector<glm::dvec3> corner;
     glm::dvec3 sum(0.0);
     for (const PieceCorner& c : polygon) sum += corner.emplace_back(at(side, inside(c.uv)));
-    if (size(at(side, centre) - sum / static_cast<double>(polygon.size())) > tolerance) return true;
+    const glm::dvec3 inner = at(side, centre);
+    if (size(inner - sum / static_cast<double>(polygon.size())) > tolerance) return true;
+    // One that is small and has hardly any change from corner to corner is not looked at along its edges.
+    const bool even = std::all_of(corner.begin(), corner.end(),
+                                  [&](const glm::dvec3& light) { return size(light - inner) <= tolerance; });
+    if (even && tolerance > tolerance_) return false;
     for (std::size_t k = 0; k < polygon.size(); ++k) {
       const std::size_t next = (k + 1) % polygon.size();
       const glm::dvec3 middle = at(side, inside((polygon[k].uv + polygon[next].uv) / 2.0));

@@ -355,5 +355,16 @@ TEST(WindowWords, OfASceneWithoutLight) {
   EXPECT_THAT(line, testing::Not(HasSubstr("--")));
 }
 
+TEST(WindowWords, OfASceneWhoseMaterialsAreMissing) {
+  const TempFolder folder;
+  LiveViewer::Options options = box();
+  options.scene = folder.write(
+      "bare.obj", "mtllib lost.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl lamp\nf 1 2 3 4\n");
+  LiveViewer live(options);
+  ASSERT_TRUE(live.until([&] { return !live->messages().lines().empty(); }));
+  EXPECT_THAT(live->messages().lines().front(), HasSubstr("No materials, so no light of its own"));
+  EXPECT_THAT(live->messages().lines().front(), HasSubstr("lost.mtl"));
+}
+
 }  // namespace
 }  // namespace unshot

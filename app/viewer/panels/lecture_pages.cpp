@@ -60,7 +60,9 @@ void equationRows(const PatchInsight& p) {
       "Radiosity of the patch: all light that leaves it, emitted and reflected. Unknown of the equation");
   row("= E_i", p.emission, kLightUnit, "Light that it emits by itself. Known");
   row("+ R_i", p.reflectance, "",
-      "Part of the light received that is reflected, 0 to 1. Known; this is where the BRDF is");
+      "Part of the light received that is reflected, 0 to 1: the lecture's letter for the reflectance "
+      "\u03c1. "
+      "Known; this is where the BRDF is");
   row("\u00d7 \u2211 G_ij B_j", p.gathered, kLightUnit,
       "Light received from all patches j, the form factor G_ij being the part of i's view that j fills: "
       "the sum over those at hand with the radiosities as they are now");
@@ -132,11 +134,11 @@ void sources(Viewer& viewer, const PatchInsight& p) {
 void shotRows(const ShotInsight& shot) {
   if (!beginChannelsAndUnits("shot")) return;
   row("A |U| before", shot.unshot_before, "W", "Unshot power of the patch before its shot");
-  row("sent: A d", shot.sent, "W", "Power that it shot");
+  row("sent: A d", shot.sent, "W", "Power that it shot: d is the radiosity that it sent, A its area");
   row("= absorbed", shot.absorbed, "W",
-      "What the surfaces it met keep: \u2211 A (1 \u2212 \u03c1) of what arrives");
+      "What the surfaces it met keep: \u2211 A (1 \u2212 R) of what arrives");
   row("+ unshot now", shot.reflected, "W",
-      "What they reflect and have still to shoot: \u2211 A \u03c1 of what arrives");
+      "What they reflect and have still to shoot: \u2211 A R of what arrives");
   row("+ escaped", shot.escaped, "W", "What met no surface");
   row("+ defect", shot.defect, "W", "Lost (negative: gained) by approximate form factors");
   ImGui::EndTable();

@@ -62,8 +62,8 @@ void setColours(ImGuiStyle& style) {
       {ImGuiCol_ScrollbarGrabHovered, grey(88)},
       {ImGuiCol_ScrollbarGrabActive, grey(104)},
       {ImGuiCol_CheckMark, amber()},
-      {ImGuiCol_SliderGrab, amber(0.62f)},  // the number over it stays readable
-      {ImGuiCol_SliderGrabActive, amber(0.74f)},
+      {ImGuiCol_SliderGrab, amber(0.50f)},  // the number over it stays readable: 6 : 1
+      {ImGuiCol_SliderGrabActive, amber(0.62f)},
       {ImGuiCol_Button, grey(60)},
       {ImGuiCol_ButtonHovered, grey(72)},
       {ImGuiCol_ButtonActive, amber(0.55f)},
