@@ -365,7 +365,8 @@ LaneState Lane::state(bool resting, bool paused) const {
   state.bounces_under_way = !broken() && hasBounceWork();
   state.spare_work = resting && hasSpareWork();
   state.progress = active().progress();
-  state.activity = finer_ ? "refining the mesh" : solve_->activity();
+  state.activity = solve_->activity();
+  state.finer_mesh = finer_ != nullptr || wantsFinerMesh();
   state.kept_bytes = solve_->keptBytes();
   if (looking_on_) state.insight = looking_on_->shown();
   if (resting) state.gathering = gathering();

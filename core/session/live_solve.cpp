@@ -66,6 +66,7 @@ void LiveSolve::carryOut(const Command& command) {
 }
 
 void LiveSolve::step() {
+  if (meshIsToBeRefined()) return refineMesh();
   takeSteps();
   if (running() && steps_left_ > 0 && --steps_left_ == 0) paused_ = true;
   offerToSaver();
@@ -99,13 +100,12 @@ bool LiveSolve::meshIsToBeRefined() const { return lane_ && !rival_ && lane_->wa
 
 bool LiveSolve::hasSpareWork() const {
   if (running() || !task_.empty()) return false;
-  bool any = meshIsToBeRefined();
+  bool any = false;
   forEachLane([&](const Lane& lane) { any = any || lane.hasSpareWork(); });
   return any;
 }
 
 void LiveSolve::spareWork() {
-  if (meshIsToBeRefined()) return refineMesh();
   Lane& lane = lane_->hasSpareWork() ? *lane_ : *rival_;
   const bool news = lane.spareWork(*setup_.interval);
   const bool tells = (lane.gathering() || lane.completing()) && wallSeconds() >= last_told_ + kTellSeconds;
@@ -290,6 +290,7 @@ void LiveSolve::recover() {
 SessionPhase LiveSolve::phase() const {
   if (!task_.empty() && !saving_ && !editing_ && !refining_) return SessionPhase::kLoading;
   if (!lane_) return SessionPhase::kEmpty;
+  if (refining_ || meshIsToBeRefined()) return paused_ ? SessionPhase::kPaused : SessionPhase::kRunning;
   const bool rival_runs = rival_ && rival_->running();
   return (rival_runs ? *rival_ : *lane_).phase(paused_);
 }
@@ -432,7 +433,6 @@ void LiveSolve::publish() {
     forEachLane([&](Lane& lane) { lane.refresh(!going || !lane.running(), *setup_.interval); });
   const bool rests = !going && task_.empty();
   if (lane_) static_cast<LaneState&>(*state) = lane_->state(rests, paused_);
-  state->spare_work = state->spare_work || (rests && meshIsToBeRefined());
   if (rival_) state->rival = rival_->state(rests, paused_);
   state->version = ++version_;
   state->epoch = epoch_;
@@ -447,6 +447,7 @@ void LiveSolve::publish() {
   state->saving = saving_;
   state->editing = editing_;
   state->refining = refining_;
+  state->finer_mesh = !rival_ && (state->finer_mesh || refining_);
   state->resumed = resumed_;
   state->problems = problems_;
   state->problem = problem_;

@@ -62,6 +62,7 @@ struct LaneState {
   bool spare_work = false;     ///< the solve rests, and its estimates or light by bounces still get better
   double progress = 0;         ///< Solve::progress
   std::string activity;        ///< Solve::activity
+  bool finer_mesh = false;     ///< the light is about to go over to a finer mesh, or under way to it
   std::size_t kept_bytes = 0;  ///< memory held by kept columns
   std::shared_ptr<const Insight> insight;         ///< what was asked for by lookInto(); null before that
   std::uint64_t drawn = 0;                        ///< hemicubes drawn

@@ -104,7 +104,7 @@ TEST(Session, RefinesTheMeshWhereASmallerErrorIsAskedFor) {
   for (const auto& seen : watch.seen()) {
     const SessionState& s = *seen.state;
     if (!s.snapshot || s.measures.shots < coarse->measures.shots || s.commands > 2) continue;
-    refining = refining || s.activity == "refining the mesh";
+    refining = refining || s.finer_mesh;
     EXPECT_GT(meanRed(s), 0.5 * meanRed(*coarse)) << "darkness between";
   }
   EXPECT_TRUE(refining);
@@ -120,7 +120,7 @@ TEST(Session, LeavesRefiningForWhatIsAskedMeanwhile) {
   watch->open(asset("cornell_box.obj"), options);
   const StatePointer coarse = watch.rested();
   watch->setError(0.01);
-  watch.wait("refining", [](const SessionState& s) { return s.activity == "refining the mesh"; });
+  watch.wait("refining", [](const SessionState& s) { return s.finer_mesh; });
   watch->pause();
   EXPECT_EQ(watch.carriedOut()->phase, SessionPhase::kPaused);
   watch->resume();
@@ -131,7 +131,7 @@ TEST(Session, LeavesRefiningForWhatIsAskedMeanwhile) {
       watch.wait("a finer mesh", [&](const SessionState& s) { return s.epoch > coarse->epoch; });
   EXPECT_EQ(finer->snapshot->mesh->materials, materials);
   watch->setError(0.005);
-  watch.wait("refining again", [](const SessionState& s) { return s.activity == "refining the mesh"; });
+  watch.wait("refining again", [](const SessionState& s) { return s.finer_mesh; });
   watch->open(asset("furnace.obj"), closedForm(24, 1e-6));
   EXPECT_EQ(watch.rested()->facts->scene_name, "furnace");
   watch.close();

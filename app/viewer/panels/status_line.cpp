@@ -89,6 +89,7 @@ PhaseLook phaseLook(const SessionState& state) {
     case SessionPhase::kLoading:
       return {"Loading", {0.95f, 0.75f, 0.3f, 1}};
     case SessionPhase::kRunning:
+      if (state.finer_mesh) return {"Refining the mesh", {0.98f, 0.72f, 0.25f, 1}};
       if (state.facts && state.measures.solverBound() <= state.facts->solver_target)
         return {state.measures.drafts > 0 ? "Refining form factors" : "Sharpening", {0.98f, 0.72f, 0.25f, 1}};
       return {state.activity.empty() ? "Shooting" : capitalised(state.activity), {0.98f, 0.72f, 0.25f, 1}};
