@@ -75,6 +75,29 @@ TEST(Session, ConvergesToWhatAPlainSolveFindsInEveryMode) {
   }
 }
 
+// Bounces and row sums wait for all columns: the few that no shot has asked for are computed at rest,
+// unasked.
+TEST(Session, ComputesAtRestWhatFewColumnsAreMissing) {
+  SolveOptions options = closedForm(2000, 0.02);
+  options.form_factors = "rays";
+  SessionWatch watch;
+  watch->open(asset("cornell_box.obj"), options);
+  const StatePointer converged = watch.rested();
+  ASSERT_EQ(converged->phase, SessionPhase::kConverged);
+  const std::size_t missing = converged->snapshot->bounce_wait.columns;
+  ASSERT_GT(missing, 0u) << "or this test shows nothing";
+  ASSERT_LE(static_cast<double>(missing), 0.02 * static_cast<double>(converged->facts->patches));
+  const StatePointer rested = watch.wait("no more work", [&](const SessionState& s) {
+    return s.version > converged->version && !s.spareWork();
+  });
+  EXPECT_EQ(rested->snapshot->bounce_wait.columns, 0u);
+  EXPECT_TRUE(rested->snapshot->row_sums);
+  EXPECT_TRUE(rested->snapshot->bounces);
+  EXPECT_EQ(rested->measures.shots, converged->measures.shots);
+  watch.close();
+  checkPublications(watch.seen());
+}
+
 // A smaller error asks for a finer mesh: the light before is shown until that has its own.
 TEST(Session, RefinesTheMeshWhereASmallerErrorIsAskedFor) {
   SolveOptions options;
