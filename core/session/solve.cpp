@@ -352,6 +352,7 @@ void Solve::again() {
   Impl& s = *impl_;
   s.state->reset();
   s.begun_solved = false;
+  s.hand_order.clear();
   s.budget->restart();
   s.mode.reset();
   s.shared.forgetDirect();

@@ -61,8 +61,7 @@ void equationRows(const PatchInsight& p) {
   row("= E_i", p.emission, kLightUnit, "Light that it emits by itself. Known");
   row("+ R_i", p.reflectance, "",
       "Part of the light received that is reflected, 0 to 1: the lecture's letter for the reflectance "
-      "\u03c1. "
-      "Known; this is where the BRDF is");
+      "\u03c1. Known; this is where the BRDF is");
   row("\u00d7 \u2211 G_ij B_j", p.gathered, kLightUnit,
       "Light received from all patches j, the form factor G_ij being the part of i's view that j fills: "
       "the sum over those at hand with the radiosities as they are now");
