@@ -21,10 +21,10 @@ void Solve::Impl::sayIdle() {
   IdleShooters shooters{.patches = mesh->patch_count, .unshot_fraction = measures.unshot_fraction};
   for (std::uint32_t q = 0; q < mesh->patch_count; ++q) {
     if (transport->quality(q)) continue;
-    ++shooters.idle;
+    shooters.idle.push_back(q);
     shooters.black += state->reflectance()[q] == glm::dvec3(0.0) && !mesh->emits(q);
   }
-  if (shooters.idle > 0) plan.push_back(withoutShooters(shooters, options.error));
+  if (!shooters.idle.empty()) plan.push_back(withoutShooters(std::move(shooters), options.error));
 }
 
 }  // namespace unshot

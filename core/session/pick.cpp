@@ -31,8 +31,11 @@ double distanceTo(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
   return distance > 0 ? distance : kMissed;
 }
 
-bool isLeftOut(const std::vector<PlanDecision>& plan, std::string_view key) {
-  return std::any_of(plan.begin(), plan.end(), [&](const PlanDecision& d) { return d.key == key; });
+// Null where it was not taken.
+const PlanDecision* decisionOf(const std::vector<PlanDecision>& plan, std::string_view key) {
+  const auto found =
+      std::find_if(plan.begin(), plan.end(), [&](const PlanDecision& d) { return d.key == key; });
+  return found == plan.end() ? nullptr : &*found;
 }
 
 std::string evenLightText(const Mesh& mesh, std::uint32_t element) {
@@ -41,6 +44,26 @@ std::string evenLightText(const Mesh& mesh, std::uint32_t element) {
   if (parts == 1) return "A coarse element: direct light is even here, so it is not cut further.";
   return "A fine element, one of " + countText(static_cast<std::uint64_t>(parts)) +
          " that a coarse one was cut into: direct light changes here.";
+}
+
+std::string idleText(const Mesh& mesh, std::uint32_t patch) {
+  const bool black = mesh.sides[mesh.patch_side[patch]].reflectance == glm::dvec3(0.0) && !mesh.emits(patch);
+  return black ? "Its patch never shot: it is black."
+               : "Its patch never shot: the error asked for was reached before its light mattered.";
+}
+
+std::vector<PickedDecision> decisionsForSides(const Surface& surface, bool picked_back) {
+  std::vector<PickedDecision> out;
+  for (const bool back : {picked_back, !picked_back}) {
+    if (surface.side[back] != kNone) continue;
+    const std::string what = back == picked_back ? "No elements: " : "No elements on its other side: ";
+    if (surface.outer[back]) {
+      out.push_back({plan_keys::kOuterSides, what + "nothing of the scene lies in front of it."});
+    } else {
+      out.push_back({plan_keys::kDarkSides, what + "closed surfaces keep it from every light."});
+    }
+  }
+  return out;
 }
 
 }  // namespace
@@ -104,32 +127,38 @@ std::vector<std::pair<glm::vec3, glm::vec3>> patchOutline(const Mesh& mesh, std:
 std::vector<PickedDecision> decisionsFor(const Mesh& mesh, const Pick& pick,
                                          const std::vector<PlanDecision>& plan) {
   const Surface& surface = mesh.surfaces[pick.surface];
-  const bool lit = pick.side != kNone;
-  std::vector<PickedDecision> out;
-  for (const bool back : {pick.back, !pick.back}) {
-    if (surface.side[back] != kNone) continue;
-    const std::string what = back == pick.back ? "No elements: " : "No elements on its other side: ";
-    if (surface.outer[back]) {
-      out.push_back({plan_keys::kOuterSides, what + "nothing of the scene lies in front of it."});
-    } else {
-      out.push_back({plan_keys::kDarkSides, what + "closed surfaces keep it from every light."});
-    }
-  }
+  std::vector<PickedDecision> out = decisionsForSides(surface, pick.back);
+  const auto leftOut = [&](std::string_view key) { return decisionOf(plan, key) != nullptr; };
   // A quadrilateral is two.
-  if (surface.triangles.count > 2 && isLeftOut(plan, plan_keys::kTriangles)) {
+  if (surface.triangles.count > 2 && leftOut(plan_keys::kTriangles)) {
     out.push_back({plan_keys::kTriangles, countText(surface.triangles.count) +
                                               " triangles of the scene are one surface: same plane and "
                                               "material."});
   }
-  if (!lit) return out;
-  if (isLeftOut(plan, plan_keys::kOcclusion))
+  if (pick.side == kNone) return out;
+  if (leftOut(plan_keys::kOcclusion))
     out.push_back({plan_keys::kOcclusion, "Nothing can stand between two points: no occlusion is tested."});
-  if (isLeftOut(plan, plan_keys::kHemicubes))
+  if (leftOut(plan_keys::kOccluders) && !surface.between) {
+    out.push_back({plan_keys::kOccluders,
+                   "No shadow ray asks for it: all that light reaches lies on one side of its plane."});
+  }
+  if (leftOut(plan_keys::kEscape)) {
+    out.push_back(
+        {plan_keys::kEscape, "No light is looked for that escapes: closed surfaces lie around every light."});
+  }
+  if (leftOut(plan_keys::kHemicubes))
     out.push_back({plan_keys::kHemicubes, "Rays find what its vertices see; no hemicube is drawn."});
-  if (isLeftOut(plan, plan_keys::kFineness))
-    out.push_back({plan_keys::kFineness, "A coarse mesh of the whole scene was tried, and is good enough."});
-  if (isLeftOut(plan, plan_keys::kEvenLight) && mesh.base && pick.element != kNone)
+  if (leftOut(plan_keys::kEvenLight) && mesh.base && pick.element != kNone)
     out.push_back({plan_keys::kEvenLight, evenLightText(mesh, pick.element)});
+  if (leftOut(plan_keys::kFineness))
+    out.push_back({plan_keys::kFineness, "A coarse mesh of the whole scene was tried, and is good enough."});
+  if (const PlanDecision* channels = decisionOf(plan, plan_keys::kChannels))
+    out.push_back({plan_keys::kChannels, "Fewer channels are summed: " + channels->why + "."});
+  const PlanDecision* idle = decisionOf(plan, plan_keys::kShooters);
+  if (idle && pick.patch != kNone &&
+      std::binary_search(idle->patches.begin(), idle->patches.end(), pick.patch)) {
+    out.push_back({plan_keys::kShooters, idleText(mesh, pick.patch)});
+  }
   return out;
 }
 

@@ -39,8 +39,8 @@ struct PickedDecision {
   std::string text;      ///< a sentence
 };
 
-/// `plan`: of the solve that the mesh is of. In the order of the plan's table; nothing where it left out
-/// nothing here.
+/// `plan`: of the solve that the mesh is of. In the order of the plan's table, but the picked side before the
+/// other; nothing where it left out nothing here.
 std::vector<PickedDecision> decisionsFor(const Mesh& mesh, const Pick& pick,
                                          const std::vector<PlanDecision>& plan);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kKind = "unshot solve";
 // To be raised when the file changes, or what form-factor methods and mesh mean by the same options.
-constexpr std::uint32_t kVersion = 6;
+constexpr std::uint32_t kVersion = 7;
 
 // What the file holds, for writing (constant values) and for reading.
 
@@ -26,7 +26,7 @@ template <class Archive, class Saved>
 void transferHead(Archive& a, Saved& s) {
   a.fields(s.scene_hash, s.form_factors, s.emit_front_only, s.sky, s.seed);
   a.fields(s.hemicube_resolution, s.hemicube_drawing, s.final_gather, s.mode, s.error);
-  a.list(s.plan, [&](auto& d) { a.fields(d.key, d.what, d.why, d.saving, d.bound); });
+  a.list(s.plan, [&](auto& d) { a.fields(d.key, d.what, d.why, d.saving, d.bound, d.patches); });
   a.list(s.do_anyway, [&](auto& key) { a.fields(key); });
   a.fields(s.quality, s.drafts_allowed, s.closure.scale, s.closure.exact, s.closure_pending);
   a.fields(s.seconds, s.cpu_seconds, s.mesh_seconds, s.plan_seconds);

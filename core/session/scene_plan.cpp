@@ -244,8 +244,8 @@ PlanDecision withoutEvenLight(const Mesh& mesh, double error) {
       error);
 }
 
-PlanDecision withoutShooters(const IdleShooters& shooters, double error) {
-  const std::size_t faint = shooters.idle - shooters.black;
+PlanDecision withoutShooters(IdleShooters shooters, double error) {
+  const std::size_t idle = shooters.idle.size(), faint = idle - shooters.black;
   std::string why;
   if (shooters.black > 0)
     why = countedText(shooters.black, "patch", "patches") + (shooters.black == 1 ? " is" : " are") + " black";
@@ -254,12 +254,14 @@ PlanDecision withoutShooters(const IdleShooters& shooters, double error) {
            std::to_string(faint) + " mattered: all that is unshot is " +
            figureText(100 * shooters.unshot_fraction) + " % of what was emitted";
   }
-  const double share = static_cast<double>(shooters.idle) / static_cast<double>(shooters.patches);
-  return decision(plan_keys::kShooters,
-                  "form factors of " + std::to_string(shooters.idle) + " of " +
-                      std::to_string(shooters.patches) + " patches",
-                  std::move(why), std::to_string(static_cast<int>(100 * share + 0.5)) + " % of the patches",
-                  faint > 0 ? error : 0);
+  const double share = static_cast<double>(idle) / static_cast<double>(shooters.patches);
+  PlanDecision out = decision(
+      plan_keys::kShooters,
+      "form factors of " + std::to_string(idle) + " of " + std::to_string(shooters.patches) + " patches",
+      std::move(why), std::to_string(static_cast<int>(100 * share + 0.5)) + " % of the patches",
+      faint > 0 ? error : 0);
+  out.patches = std::move(shooters.idle);
+  return out;
 }
 
 }  // namespace unshot

@@ -2,6 +2,7 @@
 // and what it saves; each decision can be switched off by its key.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -56,6 +57,8 @@ struct PlanDecision {
   std::string saving;
   /// nRMSE of reflected light that it may cost; 0: none but rounding.
   double bound = 0;
+  /// Where it is of some patches alone: which, in order.
+  std::vector<std::uint32_t> patches = {};
 
   std::string_view sure() const;  ///< of its row
 };
@@ -79,13 +82,15 @@ PlanDecision withoutHemicubes(const Mesh& mesh, double error);
 PlanDecision withoutFineness(const Mesh& mesh, double error, const ErrorEstimate& found, double usual);
 /// That the mesh follows the light.
 PlanDecision withoutEvenLight(const Mesh& mesh, double error);
-/// Of a solve that has converged: so many of its patches had to send nothing, of which so many are black, and
-/// what was left unshot is this share of what was emitted.
+/// Of a solve that has converged: of so many patches these had to send nothing, of which so many are black,
+/// and what was left unshot is this share of what was emitted.
 struct IdleShooters {
-  std::size_t patches = 0, idle = 0, black = 0;
+  std::size_t patches = 0;
+  std::vector<std::uint32_t> idle = {};  ///< in order
+  std::size_t black = 0;
   double unshot_fraction = 0;
 };
 /// That these did not shoot; `error`: that was asked for.
-PlanDecision withoutShooters(const IdleShooters& shooters, double error);
+PlanDecision withoutShooters(IdleShooters shooters, double error);
 
 }  // namespace unshot

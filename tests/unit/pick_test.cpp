@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <glm/geometric.hpp>
+#include <map>
 
 #include "mesh/build.h"
 #include "render/camera.h"
@@ -156,8 +157,9 @@ TEST(Pick, SaysWhatThePlanDecided) {
     const auto pick = pickAlong(mesh, eye - mesh.frame_origin, direction);
     return pick ? keysOf(decisionsFor(mesh, *pick, solve.plan())) : std::vector<std::string_view>{"nothing"};
   };
-  EXPECT_THAT(decided({0.5, 0.5, 0.5}, {0, 0, 1}), ElementsAre(plan_keys::kOuterSides))
-      << "of its other side";
+  EXPECT_THAT(decided({0.5, 0.5, 0.5}, {0, 0, 1}), ElementsAre(plan_keys::kOuterSides, plan_keys::kOccluders,
+                                                               plan_keys::kEscape, plan_keys::kChannels))
+      << "the first of its other side";
   EXPECT_THAT(decided({3.4, 0.3, 5}, {0, 0, -1}), ElementsAre(plan_keys::kDarkSides, plan_keys::kOuterSides))
       << "of both sides: in front of one lies the room";
   const auto pick = pickAlong(mesh, glm::dvec3(0.5, 0.5, 0.5) - mesh.frame_origin, {0, 0, 1});
@@ -189,6 +191,102 @@ TEST(Pick, SaysWhereAMeshThatFollowsTheLightIsFine) {
     }
   }
   EXPECT_EQ(texts, (std::set<std::string>{"A coarse", "A fine e"}));
+}
+
+// What the plan decided where the ray meets something, by key.
+std::map<std::string_view, std::string> decidedAt(const Solve& solve, const glm::dvec3& eye,
+                                                  const glm::dvec3& direction) {
+  std::map<std::string_view, std::string> out;
+  const auto pick = pickAlong(solve.mesh(), eye - solve.mesh().frame_origin, direction);
+  if (!pick) return out;
+  for (const PickedDecision& d : decisionsFor(solve.mesh(), *pick, solve.plan())) out[d.key] = d.text;
+  return out;
+}
+
+// A grey room [0, 4] x [0, 3] x [0, 4] in which a block hangs, under a ceiling that shines.
+Scene roomWithABlock(const glm::dvec3& emission = glm::dvec3(1)) {
+  SceneBuilder b;
+  const auto wall = b.material("wall", glm::dvec3(0.5, 0.6, 0.7)),
+             light = b.material("light", glm::dvec3(0.5), emission);
+  addBox(b, {wall, wall, wall, light, wall, wall}, {0, 0, 0}, {4, 3, 4}, true);
+  addBox(b, allOf(wall), {1.5, 1, 1.5}, {1, 1, 1}, false);
+  return b.finish();
+}
+
+SolveOptions byRays(double error) {
+  SolveOptions options;
+  options.form_factors = "rays";
+  options.error = error;
+  return options;
+}
+
+TEST(Pick, SaysWhichSurfacesNoShadowRayAsksFor) {
+  const Solve solve(roomWithABlock(), byRays(0.1), {});
+  const glm::dvec3 eye(2, 0.5, 2);
+  const auto floor = decidedAt(solve, eye, {0, -1, 0}), block = decidedAt(solve, eye, {0, 1, 0});
+  EXPECT_EQ(floor.count(plan_keys::kOccluders), 1u);
+  EXPECT_EQ(block.count(plan_keys::kOccluders), 0u) << "it stands between floor and ceiling";
+  SolveOptions options = byRays(0.1);
+  options.do_anyway = {std::string(plan_keys::kOccluders)};
+  const Solve with(roomWithABlock(), options, {});
+  EXPECT_EQ(decidedAt(with, eye, {0, -1, 0}).count(plan_keys::kOccluders), 0u);
+}
+
+TEST(Pick, SaysThatNoLightEscapes) {
+  const glm::dvec3 eye(2, 0.5, 2);
+  EXPECT_EQ(decidedAt(Solve(roomWithABlock(), byRays(0.1), {}), eye, {0, -1, 0}).count(plan_keys::kEscape),
+            1u);
+  SolveOptions options = byRays(0.1);
+  options.do_anyway = {std::string(plan_keys::kEscape)};
+  EXPECT_EQ(decidedAt(Solve(roomWithABlock(), options, {}), eye, {0, -1, 0}).count(plan_keys::kEscape), 0u);
+}
+
+TEST(Pick, SaysWhyFewerChannelsAreSummed) {
+  const auto decided = [](const Scene& scene) {
+    return decidedAt(Solve(scene, byRays(0.1), {}), {2, 0.5, 2}, {0, -1, 0});
+  };
+  const auto green = decided(roomWithABlock({0, 1, 0}));
+  ASSERT_EQ(green.count(plan_keys::kChannels), 1u);
+  EXPECT_EQ(green.at(plan_keys::kChannels), "Fewer channels are summed: nothing emits red or blue.");
+  EXPECT_EQ(decided(roomWithABlock({1, 2, 1})).count(plan_keys::kChannels), 0u);
+}
+
+// An open room with a black curtain: where all is closed, every patch has its form factors computed.
+TEST(Pick, SaysWhichPatchesNeverShot) {
+  SceneBuilder b;
+  const auto grey = b.material("grey", glm::dvec3(0.5, 0.6, 0.7)), black = b.material("black", {0, 0, 0}),
+             lamp = b.material("lamp", glm::dvec3(0.0), glm::dvec3(4));
+  addBox(b, {grey, grey, grey, grey, grey, kNone}, {0, 0, 0}, {4, 3, 4}, true);
+  b.quad(black, {0.1, 0, 0.1}, {0, 2.9, 0}, {0, 0, 3.8});
+  b.quad(lamp, {2, 2.9, 1}, {1, 0, 0}, {0, 0, 1});
+  Solve solve(b.finish(), byRays(0.05), {});
+  const Mesh& mesh = solve.mesh();
+  const auto idle = [&](std::uint32_t patch) -> std::string {
+    Pick pick;
+    pick.patch = patch;
+    pick.side = mesh.patch_side[patch];
+    pick.surface = mesh.sides[pick.side].surface;
+    pick.back = mesh.sides[pick.side].back;
+    for (const PickedDecision& d : decisionsFor(mesh, pick, solve.plan()))
+      if (d.key == plan_keys::kShooters) return d.text;
+    return {};
+  };
+  for (std::uint32_t q = 0; q < mesh.patch_count; ++q) EXPECT_EQ(idle(q), "") << "it is not known yet";
+  while (solve.state() == SolveState::kRunning) solve.step();
+  ASSERT_EQ(solve.state(), SolveState::kConverged);
+  std::size_t faint = 0, of_black = 0;
+  for (std::uint32_t q = 0; q < mesh.patch_count; ++q) {
+    const std::string text = idle(q),
+                      material =
+                          mesh.materials[mesh.surfaces[mesh.sides[mesh.patch_side[q]].surface].material].name;
+    EXPECT_FALSE(material == "lamp" && !text.empty());
+    EXPECT_EQ(material == "black", text.ends_with("it is black."));
+    of_black += material == "black";
+    faint += text.find("mattered") != std::string::npos;
+  }
+  EXPECT_GT(of_black, 0u);
+  EXPECT_GT(faint, 0u);
+  EXPECT_EQ(of_black + faint + solve.measures().rows, mesh.patch_count);
 }
 
 }  // namespace

@@ -48,6 +48,12 @@ std::vector<std::string> plannedKeys(const Solve& solve) {
   return out;
 }
 
+std::vector<std::uint32_t> idlePatches(const Solve& solve) {
+  for (const PlanDecision& decision : solve.plan())
+    if (decision.key == plan_keys::kShooters) return decision.patches;
+  return {};
+}
+
 class Saved : public testing::TestWithParam<SolveCase> {};
 
 // Left at a third and at two thirds of the way, and taken up again.
@@ -126,6 +132,17 @@ TEST(SavedSolves, OfAConvergedSolveAreConvergedUntilMoreIsAskedFor) {
   run(*better);
   EXPECT_EQ(better->state(), SolveState::kConverged);
   EXPECT_LE(better->measures().solverBound(), 0.4 * more.error);
+}
+
+TEST(SavedSolves, KnowWhichPatchesNeverShot) {
+  const TempFolder folder;
+  SolveOptions options;
+  options.form_factors = "rays";
+  options.error = 0.1;
+  const auto solve = solved(blockOnFloor(0.4), options);
+  ASSERT_FALSE(idlePatches(*solve).empty());
+  solve->save(folder.path() / "solve");
+  EXPECT_EQ(idlePatches(*resumed(blockOnFloor(0.4), options, folder.path() / "solve")), idlePatches(*solve));
 }
 
 TEST(SavedSolves, GoOnInAnotherModeWhereItIsAskedFor) {
