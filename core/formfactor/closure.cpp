@@ -113,7 +113,8 @@ void closePatches(std::size_t patch_count, const Receivers& receivers, const Row
         has += s.area * (sums.exact[s.receiver] + factor[s.receiver] * sums.scaled[s.receiver]);
         if (s.receiver >= receivers.base_first) room += s.area * sums.scaled[s.receiver];
       }
-      if (!known[p] || room < kGoodPart * wanted[p]) continue;
+      // A patch that sees nothing but what is open has no room for any.
+      if (!known[p] || room <= 0 || room < kGoodPart * wanted[p]) continue;
       worst = std::max(worst, std::abs(wanted[p] - has) / wanted[p]);
       for (const PatchShare& s : shares[p]) {
         if (s.receiver < receivers.base_first) continue;
