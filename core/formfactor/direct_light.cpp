@@ -16,7 +16,7 @@ glm::dvec3 DirectLight::at(const glm::dvec3& position, std::uint32_t side, doubl
   const ReceiverView from{position, mesh_.sides[side].normal, 1, side, kNone};
   glm::dvec3 sum(0.0);
   for (const std::uint32_t q : emitters_) {
-    if (mesh_.sides[side].surface == polygons_->surface(q)) continue;
+    if (mesh_.sides[side].surface == polygons_->surface(q) || mesh_.inOtherRooms(side, q)) continue;
     const double factor = polygons_->quickFactor(q, position, from.normal, scratch_);
     if (factor == 0) continue;
     const glm::dvec3 light = factor * mesh_.sides[mesh_.patch_side[q]].emission;

@@ -6,8 +6,6 @@
 
 namespace unshot {
 
-// If all that light reaches lies on one side of each surface's plane, it lies on the border of a convex body,
-// and a line of sight between two of its points stays inside.
 bool nothingCanOcclude(const Mesh& mesh) {
   return std::none_of(mesh.surfaces.begin(), mesh.surfaces.end(), [](const Surface& s) { return s.between; });
 }

@@ -57,8 +57,8 @@ std::unique_ptr<FormFactorMethod> makeHemicubeVisibility(const FormFactorSetup& 
 std::unique_ptr<FormFactorMethod> makeRays(const FormFactorSetup& setup);
 std::unique_ptr<FormFactorMethod> makeClosedForm(const FormFactorSetup& setup);
 
-/// Whether nothing can stand between any two points of the scene's lit sides: every surface has the whole
-/// scene on one side of its plane.
+/// Whether nothing can stand between any two points of lit sides of one room (Side::room): every surface has
+/// all of its room on one side of its plane.
 bool nothingCanOcclude(const Mesh& mesh);
 
 }  // namespace unshot

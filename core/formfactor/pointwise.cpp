@@ -47,7 +47,7 @@ double Pointwise::factor(std::uint32_t v, std::uint32_t q) {
 
 // The Lambert factor without occlusion.
 double Pointwise::lambert(const ReceiverView& from, std::uint32_t q, Hand& hand) const {
-  if (mesh_.sides[from.side].surface == polygons_->surface(q)) return 0;
+  if (mesh_.sides[from.side].surface == polygons_->surface(q) || mesh_.inOtherRooms(from.side, q)) return 0;
   return exact_[q] ? polygons_->factor(q, from.position, from.normal, hand.scratch)
                    : polygons_->quickFactor(q, from.position, from.normal, hand.scratch);
 }

@@ -28,7 +28,8 @@ struct MeshOptions {
   bool dark_sides = false;
   /// Whether light leaves the scene is not looked for in its surfaces (Mesh::closed stays false).
   bool escape_unknown = false;
-  bool all_tested = false;  ///< Mesh::all_tested
+  bool all_tested = false;     ///< Mesh::all_tested
+  bool rooms_unknown = false;  ///< All is one room (Side::room).
   /// Polygons of one material in one plane are one surface where they join.
   bool join_polygons = true;
   /// Light comes from outside the scene too: no side is left out.

@@ -46,7 +46,9 @@ struct Surface {
   Range patches;                 ///< in Mesh::patch_shapes
   std::uint32_t side[2] = {kNone, kNone};  ///< front, back: in Mesh::sides; kNone where no light can reach
   bool outer[2] = {false, false};          ///< front, back: whether nothing of the scene lies in front
-  bool between = false;  ///< surfaces that light reaches, or the sky, lie on either side of its plane
+  /// Surfaces that light reaches in one of its rooms (Side::room), or the sky, lie on either side of its
+  /// plane.
+  bool between = false;
 
   glm::dvec3 point(const glm::dvec2& uv) const { return origin + uv.x * axis_u + uv.y * axis_v; }
   glm::dvec2 chart(const glm::dvec3& p) const {
@@ -58,9 +60,10 @@ struct Surface {
 struct Side {
   std::uint32_t surface = 0;
   bool back = false;
-  glm::dvec3 normal{0.0};           ///< points away from this side
-  glm::dvec3 reflectance{0.0};      ///< rho
-  glm::dvec3 emission{0.0};         ///< E [W/m^2]
+  glm::dvec3 normal{0.0};       ///< points away from this side
+  glm::dvec3 reflectance{0.0};  ///< rho
+  glm::dvec3 emission{0.0};     ///< E [W/m^2]
+  std::uint32_t room = 0;       ///< from 0 on: no light goes straight from one room to another (mesh/reach.h)
   std::uint32_t first_element = 0;  ///< element of local shape k: first_element + k
   std::uint32_t first_part = 0;     ///< in Mesh::patch_parts: that of local patch k is first_part + k
 };
@@ -220,6 +223,10 @@ struct Mesh {
   /// The local patch, in its surface, of one of patch_parts.
   std::uint32_t localPatch(std::uint32_t part) const {
     return part - sides[patch_parts[part].side].first_part;
+  }
+  /// Whether walls all around stand between this side and patch q.
+  bool inOtherRooms(std::uint32_t side, std::uint32_t q) const {
+    return sides[side].room != sides[patch_side[q]].room;
   }
   /// Whether patch q is an emitter.
   bool emits(std::uint32_t q) const { return sides[patch_side[q]].emission != glm::dvec3(0.0); }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -137,6 +138,25 @@ class Reach {
     }
   }
 
+  /// See Reached.
+  std::vector<std::uint32_t> rooms() {
+    std::vector<std::uint32_t> out;
+    if (light_.size() < 2) return out;
+    out.assign(lit_.size(), kNone);
+    std::unordered_map<Shells::Place, std::uint32_t> numbers;
+    std::vector<std::optional<std::uint32_t>> of_shell(lit_.size());
+    for (std::uint32_t side = 0; side < lit_.size(); ++side) {
+      if (!lit_[side] || isMixed(side)) continue;
+      const std::uint32_t shell = shells_.of(side);
+      if (!of_shell[shell] || shell_touched_[shell]) {
+        const auto place = onePlaceOf(side);
+        of_shell[shell] = place ? numbers.try_emplace(*place, numbers.size()).first->second : kNone;
+      }
+      out[side] = *of_shell[shell];
+    }
+    return out;
+  }
+
   /// No place of light is the one outside of all shells.
   bool closed() const { return light_.count(Shells::kOutside) == 0; }
   std::vector<char> take() { return std::move(lit_); }
@@ -151,6 +171,11 @@ class Reach {
       light_.insert(*place);
     }
     return true;
+  }
+  // Nothing where something stands directly before it.
+  std::optional<Shells::Place> onePlaceOf(std::uint32_t side) {
+    const auto far = shells_.placeOf(side, kOff * weld_distance_);
+    return far && far == shells_.placeOf(side, kNear * weld_distance_) ? far : std::nullopt;
   }
   bool seesLight(std::uint32_t side, double off) {
     const auto place = shells_.placeOf(side, off * weld_distance_);
@@ -180,7 +205,7 @@ class Reach {
 Reached findReach(const Mesh& mesh, const std::vector<SurfaceEdge>& edges,
                   std::span<const Crossing> crossings, std::span<const char> emits, double weld_distance,
                   const CancelToken& cancel) {
-  const Reached everywhere{std::vector<char>(2 * mesh.surfaces.size(), 1), false};
+  const Reached everywhere{std::vector<char>(2 * mesh.surfaces.size(), 1)};
   if (std::find(emits.begin(), emits.end(), 1) == emits.end()) return everywhere;
   const std::vector<Touch> touches = findTouches(mesh, edges, 2 * kOff * weld_distance, cancel.part(0, 0.9));
   Shells shells(mesh, edges, crossings, touches, weld_distance, cancel);
@@ -188,7 +213,8 @@ Reached findReach(const Mesh& mesh, const std::vector<SurfaceEdge>& edges,
   Reach reach(mesh, edges, touches, shells, weld_distance);
   if (!reach.findLight(emits, cancel.part(0.9, 1))) return everywhere;
   reach.lightMixed();
-  return {reach.take(), reach.closed()};
+  std::vector<std::uint32_t> rooms = reach.rooms();
+  return {reach.take(), reach.closed(), std::move(rooms)};
 }
 
 }  // namespace unshot

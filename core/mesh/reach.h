@@ -2,6 +2,9 @@
 // emits.
 //
 // A side on which something stands may be inside of it in parts: it is lit if anything around it is.
+//
+// Where light is in several places, no light goes straight from a surface of one to one of another: these are
+// rooms of their own.
 #pragma once
 
 #include <span>
@@ -18,6 +21,9 @@ struct Reached {
   std::vector<char>
       sides;            ///< two flags for each of Mesh::surfaces, front and back: whether light can reach it
   bool closed = false;  ///< none of the light can leave the scene
+  /// Of each of these sides the number of its room, from 0 on; kNone where light does not reach it, or where
+  /// it may be in several. Empty where all that light reaches is one.
+  std::vector<std::uint32_t> rooms = {};
 };
 
 /// `edges`: all edges of the scene's polygons, equal ones side by side; `emits`: two flags for each surface.

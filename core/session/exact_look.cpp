@@ -26,17 +26,17 @@ bool looksExactlySooner(const Mesh& mesh) {
 
 ExactLook::ExactLook(const Mesh& mesh) : margin_(mesh.weld_distance) {
   forEachPiece(mesh, [&](const Side& side, std::uint32_t element, FactorPolygon polygon) {
-    tiles_.push_back({std::move(polygon), side.normal, element});
+    tiles_.push_back({std::move(polygon), side.normal, element, side.room});
   });
 }
 
-Gather ExactLook::at(const glm::dvec3& position, const glm::dvec3& normal) const {
+Gather ExactLook::at(const glm::dvec3& position, const glm::dvec3& normal, std::uint32_t room) const {
   Gather out;
   std::vector<glm::dvec3> scratch;
   double sum = 0;
   for (const Tile& tile : tiles_) {
     // Also where both lie in one plane.
-    if (glm::dot(position - tile.polygon.centre(), tile.normal) <= margin_) continue;
+    if (tile.room != room || glm::dot(position - tile.polygon.centre(), tile.normal) <= margin_) continue;
     const double factor = tile.polygon.exact(position, normal, scratch);
     if (factor <= 0) continue;
     sum += factor;

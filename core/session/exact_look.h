@@ -18,14 +18,14 @@ class ExactLook {
   /// The mesh must outlive it. Nothing in it may stand between two points (nothingCanOcclude).
   explicit ExactLook(const Mesh& mesh);
 
-  /// From `position` on a surface, on the side that `normal` points away from.
-  Gather at(const glm::dvec3& position, const glm::dvec3& normal) const;
+  /// From `position` on a surface, on the side that `normal` points away from, which is in this room.
+  Gather at(const glm::dvec3& position, const glm::dvec3& normal, std::uint32_t room) const;
 
  private:
   struct Tile {
     FactorPolygon polygon;
     glm::dvec3 normal;
-    std::uint32_t element;
+    std::uint32_t element, room;
   };
   double margin_;  // [m]
   std::vector<Tile> tiles_;

@@ -198,7 +198,7 @@ void LocalPass::find(std::uint32_t q, Hand& hand) const {
 // for what occludes.
 bool LocalPass::look(const ReceiverView& view, std::uint32_t q, std::vector<Look>& out,
                      std::vector<glm::dvec3>& scratch) const {
-  if (mesh_.sides[view.side].surface == polygons_->surface(q) ||
+  if (mesh_.sides[view.side].surface == polygons_->surface(q) || mesh_.inOtherRooms(view.side, q) ||
       !polygons_->faces(q, view.position, view.normal))
     return false;
   const glm::dvec3& normal = mesh_.sides[mesh_.patch_side[q]].normal;

@@ -140,7 +140,7 @@ std::vector<PickedDecision> decisionsFor(const Mesh& mesh, const Pick& pick,
     out.push_back({plan_keys::kOcclusion, "Nothing can stand between two points: no occlusion is tested."});
   if (leftOut(plan_keys::kOccluders) && !surface.between) {
     out.push_back({plan_keys::kOccluders,
-                   "No shadow ray asks for it: all that light reaches lies on one side of its plane."});
+                   "No shadow ray asks for it: all that it could hide lies on one side of its plane."});
   }
   if (leftOut(plan_keys::kEscape)) {
     out.push_back(

@@ -57,6 +57,8 @@ MeshOptions meshOptions(const Scene& scene, const SolveOptions& options) {
           .dark_sides = !leavesOut(options.do_anyway, plan_keys::kDarkSides),
           .escape_unknown = !leavesOut(options.do_anyway, plan_keys::kEscape),
           .all_tested = !leavesOut(options.do_anyway, plan_keys::kOccluders),
+          .rooms_unknown = !leavesOut(options.do_anyway, plan_keys::kOcclusion) ||
+                           !leavesOut(options.do_anyway, plan_keys::kOccluders),
           .join_polygons = leavesOut(options.do_anyway, plan_keys::kTriangles),
           .sky = skyOver(scene, options.sky) != glm::dvec3(0.0)};
 }

@@ -124,11 +124,6 @@ void ResidualPlaces::add(std::size_t places, const MeshField& shown) {
   }
 }
 
-Gather ResidualPlaces::look(const glm::dvec3& position, const glm::dvec3& normal,
-                            std::uint64_t stream) const {
-  return exact_ ? exact_->at(position, normal) : gatherer_->look(position, normal, stream);
-}
-
 void ResidualPlaces::addPoint(std::uint64_t number) {
   const std::uint64_t bits = mixBits(seed_ + 4 * number);
   ResidualPlace place;
@@ -142,9 +137,13 @@ void ResidualPlaces::addPoint(std::uint64_t number) {
   for (int k = 0; k < 3; ++k)
     position += place.weights[k] *
                 glm::dvec3(mesh_.vertices[mesh_.triangle_vertices[3 * place.triangle + k]].position);
-  const glm::dvec3& normal = mesh_.sides[mesh_.element_side[element]].normal;
-  place.looks[0] = look(position, normal, mixBits(bits + 2));
-  if (!looks_exact_) place.looks[1] = look(position, normal, mixBits(bits + 3));
+  const Side& side = mesh_.sides[mesh_.element_side[element]];
+  if (looks_exact_) {
+    place.looks[0] = exact_->at(position, side.normal, side.room);
+  } else {
+    for (std::uint64_t k = 0; k < 2; ++k)
+      place.looks[k] = gatherer_->look(position, side.normal, mixBits(bits + 2 + k));
+  }
   points_.push_back(std::move(place));
 }
 
@@ -162,7 +161,7 @@ void ResidualPlaces::addReceiver(std::uint64_t number) {
       double left = unitInterval(mixBits(bits + 20 + k));
       std::size_t chosen = 0;
       while (chosen + 1 < views.size() && left >= views[chosen].weight) left -= views[chosen++].weight;
-      place.looks[k] = look(views[chosen].position, views[chosen].normal, mixBits(bits + 2 + k));
+      place.looks[k] = gatherer_->look(views[chosen].position, views[chosen].normal, mixBits(bits + 2 + k));
       continue;
     }
     // Each look from a place of its own in the element: its H is a mean.
@@ -170,7 +169,8 @@ void ResidualPlaces::addReceiver(std::uint64_t number) {
     std::uint64_t state = mixBits(bits + 10 * k);
     const glm::dvec3 position =
         element_points_->at(place.receiver, [&] { return unitInterval(state = mixBits(state)); });
-    place.looks[k] = look(position, mesh_.sides[mesh_.element_side[place.receiver]].normal, mixBits(state));
+    place.looks[k] =
+        gatherer_->look(position, mesh_.sides[mesh_.element_side[place.receiver]].normal, mixBits(state));
   }
   at_receivers_.push_back(std::move(place));
 }

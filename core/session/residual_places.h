@@ -57,7 +57,6 @@ class ResidualPlaces {
   void findLight(const MeshField& shown);
   void addPoint(std::uint64_t number);
   void addReceiver(std::uint64_t number);
-  Gather look(const glm::dvec3& position, const glm::dvec3& normal, std::uint64_t stream) const;
   double areaOf(std::uint32_t receiver) const;
 
   const Mesh& mesh_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <set>
 
 #include "base/colour.h"
 #include "base/text.h"
@@ -54,6 +55,12 @@ const PlanRow& rowOf(std::string_view key) { return findChoice(planRows(), key, 
 PlanDecision decision(std::string_view key, std::string what, std::string why, std::string saving,
                       double bound = 0) {
   return {std::string(key), std::move(what), std::move(why), std::move(saving), bound};
+}
+
+std::size_t roomCount(const Mesh& mesh) {
+  std::set<std::uint32_t> rooms;
+  for (const Side& side : mesh.sides) rooms.insert(side.room);
+  return rooms.size();
 }
 
 // Of sides without elements.
@@ -184,21 +191,29 @@ std::vector<PlanDecision> makePlan(const PlannedSolve& solve) {
         std::to_string(polygons) + " polygons of the scene join into them: same plane and material",
         "elements as fine as the light needs, not as the input was cut", solve.error));
   }
+  const std::size_t rooms = roomCount(mesh);
+  const std::string apart =
+      rooms < 2 ? "" : "; no light goes straight from one of " + std::to_string(rooms) + " rooms to another";
   if (solve.form_factors == "closed-form" && nothingCanOcclude(mesh)) {
     out.push_back(decision(plan_keys::kOcclusion, "occlusion tests, hemicubes and OpenGL for the solution",
-                           "every surface has the whole scene on one side of its plane, so nothing can stand "
-                           "between two points",
+                           "every surface has the whole " + std::string(rooms < 2 ? "scene" : "room") +
+                               " on one side of its plane, so nothing can stand between two points" + apart,
                            "all pictures; the form factors are exact"));
   }
   const bool by_rays = solve.form_factors == "rays";
   const auto between = static_cast<std::size_t>(
       std::count_if(mesh.surfaces.begin(), mesh.surfaces.end(), [](const Surface& s) { return s.between; }));
   const auto lit = static_cast<std::size_t>(std::count_if(mesh.surfaces.begin(), mesh.surfaces.end(), isLit));
-  if (by_rays && between < lit && !mesh.all_tested) {
+  if (by_rays && (between < lit || rooms > 1) && !mesh.all_tested) {
     out.push_back(decision(
-        plan_keys::kOccluders, "shadow rays against " + countedText(lit - between, "surface"),
-        "these have all that light reaches on one side of their plane, so they can stand "
-        "between no two points",
+        plan_keys::kOccluders,
+        "shadow rays against " + countedText(lit - between, "surface") +
+            (rooms < 2 ? "" : " and from room to room"),
+        (rooms < 2 ? "these have all that light reaches on one side of their plane, so they can stand "
+                     "between no two points"
+                   : "these have all of their room on one side of their plane, so they can stand between no "
+                     "two points of it") +
+            apart,
         "tests against " + std::to_string(lit - between) + " of " + std::to_string(lit) + " surfaces"));
   }
   if (mesh.closed && (by_rays || solve.form_factors == "closed-form")) {

@@ -19,7 +19,7 @@ TEST(ExactLook, SeesAllOfAClosedRoom) {
   const ExactLook exact(mesh);
   for (const glm::dvec3 at : {glm::dvec3(0.3, 0.3, 0.2), glm::dvec3(0.01, 0.99, 0.5), glm::dvec3(0.5)}) {
     const glm::dvec3 position(at.x, 0, at.z);
-    const Gather look = exact.at(position - mesh.frame_origin, {0, 1, 0});
+    const Gather look = exact.at(position - mesh.frame_origin, {0, 1, 0}, 0);
     double sum = 0;
     for (const Gather::Share& share : look.shares) {
       sum += static_cast<double>(share.weight);
@@ -40,7 +40,7 @@ TEST(ExactLook, IsTheMeanOfLooksByRays) {
     const Surface& surface = mesh.surfaces[side.surface];
     const glm::dvec3 position = surface.point(surface.extent * glm::dvec2(0.3, 0.6));
     std::vector<double> by_rays(mesh.element_count, 0.0), by_factors(mesh.element_count, 0.0);
-    const Gather look = exact.at(position, side.normal);
+    const Gather look = exact.at(position, side.normal, 0);
     for (const Gather::Share& share : look.shares) by_factors[share.element] += share.weight;
     double sky = 0;
     constexpr int kLooks = 100;

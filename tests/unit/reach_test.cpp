@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <set>
 
 #include "base/cosine_direction.h"
 #include "mesh/build.h"
@@ -165,7 +166,7 @@ TEST(Reach, LeavesOutNothingUnderASky) {
 // Light followed by rays, in scenes of boxes and loose faces that stand apart, touch or pass through each
 // other: it never comes to a side that was left out.
 TEST(Reach, HoldsForLightThatIsFollowed) {
-  std::size_t left_out = 0, sides = 0, met = 0;
+  std::size_t left_out = 0, sides = 0, met = 0, of_rooms = 0;
   for (std::uint64_t seed = 0; seed < 150; ++seed) {
     const Scene scene = RandomScene(seed).scene();
     const Mesh mesh = buildMesh(scene, evenly(60));
@@ -183,12 +184,14 @@ TEST(Reach, HoldsForLightThatIsFollowed) {
         const glm::dvec2 uv =
             u * mesh.triangles[t].uv[0] + v * mesh.triangles[t].uv[1] + (1 - u - v) * mesh.triangles[t].uv[2];
         glm::dvec3 position = mesh.surfaces[side.surface].point(uv), normal = side.normal;
+        of_rooms += side.room > 0;
         for (int bounce = 0; bounce < 6; ++bounce) {
           const auto hit = rays.intersect(rays.rays().lifted(position, normal),
                                           cosineDirection(normal, dice.uniform(), dice.uniform()));
           if (!hit) break;
           ++met;
           ASSERT_NE(hit->side, kNone) << "seed " << seed << ", surface " << hit->surface;
+          ASSERT_EQ(mesh.sides[hit->side].room, side.room) << "seed " << seed << ", surface " << hit->surface;
           position = hit->at.position;
           normal = hit->at.normal;
         }
@@ -196,6 +199,7 @@ TEST(Reach, HoldsForLightThatIsFollowed) {
     }
   }
   EXPECT_GT(met, 100'000u);
+  EXPECT_GT(of_rooms, 1'000u);
   EXPECT_GT(left_out, sides / 10);
 }
 
@@ -272,6 +276,45 @@ TEST(Reach, NoRayLeavesWhatIsClosed) {
     }
   }
   EXPECT_GE(closed_scenes, 10);
+}
+
+// Of each side of the mesh.
+std::vector<std::uint32_t> roomsOf(Rooms rooms) {
+  std::vector<std::uint32_t> out;
+  for (const Side& side : buildMesh(rooms.scene(), evenly(100)).sides) out.push_back(side.room);
+  return out;
+}
+
+std::size_t roomCount(Rooms rooms) {
+  const std::vector<std::uint32_t> all = roomsOf(std::move(rooms));
+  return std::set<std::uint32_t>(all.begin(), all.end()).size();
+}
+
+TEST(Reach, TellsRoomsApartThatNoLightJoins) {
+  const auto two = [](double gap) {
+    return litRoom().box({4 + gap, 0, 0}, {4, 3, 4}, true, gap > 0 ? -1 : kLowX).lamp({6, 2.9, 2});
+  };
+  for (const double gap : {0.0, 1.0}) {
+    const std::vector<std::uint32_t> rooms = roomsOf(two(gap));
+    ASSERT_EQ(rooms.size(), 2 * kRoom) << gap;
+    // As many sides in either.
+    EXPECT_EQ(std::count(rooms.begin(), rooms.end(), rooms[0]), kRoom) << gap;
+  }
+  // What hangs in one belongs to it.
+  EXPECT_EQ(roomCount(two(1).box({1, 1, 1}, {1, 0.5, 1})), 2u);
+  // What stands on a floor hides which part of it is where.
+  EXPECT_EQ(roomCount(two(1).box({1, 0, 1}, {1, 0.5, 1}, false, kBottom)), 1u);
+}
+
+TEST(Reach, TellsNoRoomsApartThatACrackJoins) {
+  for (const double gap : {1e-4, 0.5}) {
+    Rooms rooms = Rooms()
+                      .lamp({2, 2.9, 2})
+                      .lamp({6, 2.9, 2})
+                      .box({0, 0, 0}, {4, 3, 4}, true, kHighX)
+                      .box({4, 0, 0}, {4, 3, 4}, true, kLowX);
+    EXPECT_EQ(roomCount(rooms.quad({4, 0, 0}, {0, 3 - gap, 0}, {0, 0, 4})), 1u) << gap;
+  }
 }
 
 }  // namespace
