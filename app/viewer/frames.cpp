@@ -297,8 +297,7 @@ ReferencePicture::Look Viewer::referenceLook() const {
 
 /// When the picture is to be compared with the reference again; infinity where that is done.
 double Viewer::nextMeasure() const {
-  // A picture that is still to be sharpened has other edges soon.
-  if (!referencePicture() || !sceneStands() || coarse_ || mayBeSharpened(kNever) ||
+  if (!referencePicture() || !sceneStands() || coarse_ ||
       !reference_picture_->unmeasured(scene_, scene_width_, scene_height_, referenceLook()))
     return kNever;
   return std::max(last_measured_ + kMeasureSeconds, last_motion_ + kRestSeconds);

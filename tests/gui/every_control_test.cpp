@@ -39,7 +39,7 @@ class EveryControl : public testing::Test {
     options.solve.error = 0.3;
     options.solve.form_factors = "hemicube";
     options.width = 1004;
-    options.height = 2600;  // all of the panel is in it
+    options.height = 2640;  // all of the panel is in it
     return options;
   }
   void act(const std::string& action, const std::string& argument = {}) {

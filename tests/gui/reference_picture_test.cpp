@@ -35,6 +35,8 @@ class ReferencePictures : public testing::Test {
 
   void SetUp() override {
     ASSERT_TRUE(viewer_.untilPhase(SessionPhase::kConverged));
+    // A later state would be drawn with other edges until it is sharpened.
+    ASSERT_TRUE(viewer_.until([this] { return !viewer_->state().spareWork() && viewer_->upToDate(); }));
     viewer_->perform("panel", "off");
     viewer_->perform("lock-exposure", "on");
     viewer_->perform("ambient", "off");

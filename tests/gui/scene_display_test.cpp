@@ -152,7 +152,10 @@ TEST_F(SceneDisplays, CoarsePicturesOfLargeMeshesHaveCellsMerged) {
 
 TEST_F(SceneDisplays, CoarsePicturesShowTheSameAndAreNoMoreThanAsked) {
   SceneDisplay fine(*context_), coarse(*context_);
-  for (SceneDisplay* display : {&fine, &coarse}) display->setSnapshot(snapshot_);
+  // So few elements that none are merged.
+  const Scene scene = readObj(UNSHOT_SOURCE_DIR "/assets/cornell_box.obj");
+  const auto few_elements = state(std::make_shared<Mesh>(buildMesh(scene, {10'000, {}, false})), 1);
+  for (SceneDisplay* display : {&fine, &coarse}) display->setSnapshot(few_elements);
   fine.draw(wanted_, -1, SceneDisplay::kAtOnce);
   const std::vector<std::uint8_t> all = pixels(fine);
   for (const int divisor : {2, 3}) {  // the height and the width are no multiples of 3

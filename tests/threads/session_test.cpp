@@ -98,15 +98,20 @@ TEST(Session, ComputesAtRestWhatFewColumnsAreMissing) {
   checkPublications(watch.seen());
 }
 
-// A smaller error asks for a finer mesh: the light before is shown until that has its own.
-TEST(Session, RefinesTheMeshWhereASmallerErrorIsAskedFor) {
+/// The box on a mesh that follows the light, solved.
+StatePointer openFollowing(SessionWatch& watch, double error) {
   SolveOptions options;
   options.form_factors = "rays";
-  options.error = 0.06;
-  SessionWatch watch;
+  options.error = error;
   watch->setPublishInterval(0);
   watch->open(asset("cornell_box.obj"), options);
-  const StatePointer coarse = watch.rested();
+  return watch.rested();
+}
+
+// A smaller error asks for a finer mesh: the light before is shown until that has its own.
+TEST(Session, RefinesTheMeshWhereASmallerErrorIsAskedFor) {
+  SessionWatch watch;
+  const StatePointer coarse = openFollowing(watch, 0.06);
   ASSERT_EQ(coarse->phase, SessionPhase::kConverged);
   watch->setError(0.02);
   const auto isFiner = [&](const SessionState& s) { return s.epoch > coarse->epoch; };
@@ -135,13 +140,8 @@ TEST(Session, RefinesTheMeshWhereASmallerErrorIsAskedFor) {
 
 // What is asked for meanwhile is for the solve that is shown.
 TEST(Session, LeavesRefiningForWhatIsAskedMeanwhile) {
-  SolveOptions options;
-  options.form_factors = "rays";
-  options.error = 0.06;
   SessionWatch watch;
-  watch->setPublishInterval(0);
-  watch->open(asset("cornell_box.obj"), options);
-  const StatePointer coarse = watch.rested();
+  const StatePointer coarse = openFollowing(watch, 0.06);
   watch->setError(0.01);
   watch.wait("refining", [](const SessionState& s) { return s.finer_mesh; });
   watch->pause();
