@@ -78,7 +78,7 @@ TEST(Session, ConvergesToWhatAPlainSolveFindsInEveryMode) {
 // Bounces and row sums wait for all columns: the few that no shot has asked for are computed at rest,
 // unasked.
 TEST(Session, ComputesAtRestWhatFewColumnsAreMissing) {
-  SolveOptions options = closedForm(2000, 0.02);
+  SolveOptions options = closedForm(600, 0.03);
   options.form_factors = "rays";
   SessionWatch watch;
   watch->open(asset("cornell_box.obj"), options);
