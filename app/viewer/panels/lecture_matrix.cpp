@@ -155,9 +155,6 @@ void map(Viewer& viewer, const char* id, const std::vector<double>& values, cons
   ImGui::TextUnformatted(name.c_str());
   heatMap(viewer, id, values, name, side);
   legend(*std::max_element(values.begin(), values.end()), side);
-  const auto& groups = viewer.teaching().insight()->matrix->groups;
-  if (std::any_of(groups.begin(), groups.end(), [](const auto& group) { return !group.sends; }))
-    dimmed("grey: not computed, for no light leaves there");
   ImGui::EndGroup();
 }
 
@@ -402,6 +399,9 @@ void matrixPage(Viewer& viewer) {
   const std::vector<double>& other = choices.sums ? series.sum(choices.power) : series.power(choices.power);
   const std::string name = termText(choices.power, choices.sums);
   map(viewer, "##other", other, name, side);
+  const auto& groups = teaching.insight()->matrix->groups;
+  if (std::any_of(groups.begin(), groups.end(), [](const auto& group) { return !group.sends; }))
+    dimmed("Grey columns are not computed: no light leaves there.");
   if (const std::optional<MatrixCell> cell = chosenCell(teaching)) {
     wrapped(cellText(viewer, other, name, *cell));
     markGroups(teaching, *cell);
