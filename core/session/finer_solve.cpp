@@ -15,6 +15,8 @@ namespace {
 
 // Of the elements allowed: with more there is no finer mesh.
 constexpr double kNearlyAll = 0.9;
+// That a mesh is far from the error asked for takes an estimate from so many places to say.
+constexpr std::size_t kSurePlaces = 512;
 
 // Its patches are those of the mesh.
 const Mesh& patchMesh(const Mesh& mesh) { return mesh.base ? *mesh.base : mesh; }
@@ -59,7 +61,8 @@ std::optional<double> Solve::Impl::finerMeshError() const {
   const auto elements = static_cast<double>(mesh->element_count);
   if (elements >= kNearlyAll * static_cast<double>(options.max_elements)) return std::nullopt;
   if (options.error < mesh_error) return options.error;
-  return relit && missesError() ? std::optional(mesh_error) : std::nullopt;
+  const bool sure = budget->places() >= kSurePlaces;
+  return relit && sure && missesError() ? std::optional(mesh_error) : std::nullopt;
 }
 
 Solve::Solve(const Solve& before, const std::function<gl::Context&()>& gl, const CancelToken& cancel)

@@ -96,11 +96,7 @@ void Lane::forgetFinerMesh() {
 }
 
 bool Lane::wantsFinerMesh() const {
-  if (broken() || finer_ || no_finer_mesh_) return false;
-  const std::optional<double> wanted = solve_->finerMeshError();
-  // That it is too coarse by estimate takes all places to say.
-  const bool sure = solve_->places() >= kPlacesAtRest && !estimates_stale_;
-  return wanted && (sure || *wanted >= solve_->options().error);
+  return !broken() && !finer_ && !no_finer_mesh_ && solve_->finerMeshError().has_value();
 }
 
 void Lane::refineMesh(const std::function<gl::Context&()>& gl, const CancelToken& cancel) {
