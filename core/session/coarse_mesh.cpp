@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <limits>
 
+#include "formfactor/direct_light.h"
 #include "formfactor/methods.h"
 #include "formfactor/transport.h"
 #include "session/fields.h"
@@ -13,8 +16,11 @@
 namespace unshot {
 namespace {
 
-// The first trial has this share of the usual elements, the last at most that.
-constexpr double kFirst = 1.0 / 64, kLast = 1.0 / 4;
+// The first trial has this share of the usual elements, or that where light straight from emitters is even,
+// the last at most that. Of rooms lit by a wall the first is mostly the last.
+constexpr double kFirst = 1.0 / 9, kFirstOfEven = 1.0 / 64, kLast = 1.0 / 4;
+// Of a surface's width: so far off its borders it is looked at, and in the middle.
+constexpr double kOffBorders = 0.05;
 // From one trial to the next, times as many at least and at most.
 constexpr double kLeastStep = 2, kMostStep = 10;
 // The error falls with at least the first of these powers of their number, as walls that meet hold it up, and
@@ -27,19 +33,44 @@ constexpr double kTrusted = 1.5;
 constexpr double kHopeless = 1.1;
 // Of an emitter, at least, over the edge of an element of the first trial.
 constexpr double kWidth = 0.5;
-// That end over the estimate itself, about.
-constexpr double kSpread = 2.4;
-constexpr std::size_t kPlaces = 64;
+// That end over the estimate itself, about, and with more places.
+constexpr double kSpread = 2.4, kNarrowed = 2.1;
+// At so many places, and where they leave open whether it is enough, at so many in all.
+constexpr std::size_t kPlaces = 64, kMorePlaces = 256;
 // Of the solution of the patches, which is to add nothing.
 constexpr double kTolerance = 1e-5;
 constexpr int kMostProducts = 200;
 constexpr std::size_t kAnyMemory = std::size_t{1} << 30;  // [bytes]
 
+// Whether light straight from emitters is the same all over each surface, but for this share of the mean.
+bool isLitEvenly(const Mesh& coarsest, double share, std::uint64_t seed) {
+  DirectLight light(coarsest, false, seed);
+  double sum = 0, count = 0, widest = 0;
+  for (std::uint32_t s = 0; s < coarsest.sides.size(); ++s) {
+    if (coarsest.sides[s].reflectance == glm::dvec3(0.0)) continue;
+    const Surface& surface = coarsest.surfaces[coarsest.sides[s].surface];
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high(0.0);
+    for (const glm::dvec2 at :
+         {glm::dvec2(0.5), glm::dvec2(kOffBorders), glm::dvec2(1 - kOffBorders),
+          glm::dvec2(kOffBorders, 1 - kOffBorders), glm::dvec2(1 - kOffBorders, kOffBorders)}) {
+      const glm::dvec3 found = light.at(surface.point(at * surface.extent), s, 0);
+      low = glm::min(low, found);
+      high = glm::max(high, found);
+      sum += found.x + found.y + found.z;
+      ++count;
+    }
+    const glm::dvec3 off = high - low;
+    widest = std::max(widest, off.x + off.y + off.z);
+  }
+  return count == 0 || widest <= share * sum / count;
+}
+
 }  // namespace
 
 bool mayBeCoarse(const Mesh& coarsest, double usual) {
-  if (coarsest.element_count > kFirst * usual + 2 * static_cast<double>(coarsest.sides.size())) return false;
-  const double size = std::sqrt(coarsest.lit_area / (kFirst * usual));
+  if (coarsest.element_count > kFirstOfEven * usual + 2 * static_cast<double>(coarsest.sides.size()))
+    return false;
+  const double size = std::sqrt(coarsest.lit_area / (kFirstOfEven * usual));
   return std::all_of(coarsest.sides.begin(), coarsest.sides.end(), [&](const Side& side) {
     const Surface& surface = coarsest.surfaces[side.surface];
     return side.emission == glm::dvec3(0.0) ||
@@ -47,17 +78,18 @@ bool mayBeCoarse(const Mesh& coarsest, double usual) {
   });
 }
 
-CoarseMesh findCoarseMesh(const CoarseTrial& trial, const CancelToken& cancel) {
-  const double last = kLast * trial.usual;
-  for (double elements = kFirst * trial.usual; elements <= last;) {
+CoarseMesh findCoarseMesh(const Mesh& coarsest, const CoarseTrial& trial, const CancelToken& cancel) {
+  const double last = kLast * trial.usual, enough = kTrusted * trial.error;
+  const double first = isLitEvenly(coarsest, trial.error, trial.seed) ? kFirstOfEven : kFirst;
+  for (double elements = first * trial.usual; elements <= last;) {
     std::shared_ptr<const Mesh> mesh = trial.make(elements);
-    SolvedAtOnce solved = solveAtOnce(*mesh, trial.seed, trial.fewer_channels, cancel);
+    SolvedAtOnce solved = solveAtOnce(*mesh, enough, trial.seed, trial.fewer_channels, cancel);
     const ErrorEstimate found = solved.error;
     if (found.places == 0) break;
-    if (found.high <= kTrusted * trial.error) return {std::move(mesh), std::move(solved)};
-    const double over = kSpread * found.value / (kTrusted * trial.error);
+    if (found.high <= enough) return {std::move(mesh), std::move(solved)};
+    const double over = kSpread * found.value / enough;
     if (elements * std::pow(over, 1 / kLeastOrder) > kHopeless * last) break;
-    const double over_aim = found.high / (kAim * kTrusted * trial.error);
+    const double over_aim = found.high / (kAim * enough);
     const double step = std::clamp(std::pow(over_aim, 1 / kOrder), kLeastStep, kMostStep);
     // What is hardly more than the last trial may have is tried with that.
     elements = elements < last ? std::min(step * elements, last) : step * elements;
@@ -65,7 +97,7 @@ CoarseMesh findCoarseMesh(const CoarseTrial& trial, const CancelToken& cancel) {
   return {};
 }
 
-SolvedAtOnce solveAtOnce(const Mesh& mesh, std::uint64_t seed, bool fewer_channels,
+SolvedAtOnce solveAtOnce(const Mesh& mesh, double enough, std::uint64_t seed, bool fewer_channels,
                          const CancelToken& cancel) {
   FormFactorSetup setup;
   setup.mesh = &mesh;
@@ -106,8 +138,12 @@ SolvedAtOnce solveAtOnce(const Mesh& mesh, std::uint64_t seed, bool fewer_channe
   }
   Residuals residuals(mesh, transport.receivers(), false, seed);
   const MeshField field = makeField(mesh, transport.receivers(), shown);
-  residuals.add(kPlaces, field);
-  out.error = residuals.estimate(state, matrix, field, false).both;
+  for (std::size_t places : {kPlaces, kMorePlaces - kPlaces}) {
+    residuals.add(places, field);
+    out.error = residuals.estimate(state, matrix, field, false).both;
+    // More places narrow the interval about the value.
+    if (out.error.high <= enough || out.error.value * kNarrowed > enough) break;
+  }
   out.places = residuals.takePlaces();
   out.values = state.values();
   for (std::uint32_t q = 0; q < mesh.patch_count; ++q) out.columns.push_back(*transport.take(q, false));

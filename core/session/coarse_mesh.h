@@ -43,11 +43,12 @@ bool mayBeCoarse(const Mesh& coarsest, double usual);
 
 /// The coarsest mesh tried whose error is surely within what is asked for; without a mesh where none is,
 /// which is given up early. For scenes without a sky in which nothing can stand between two points
-/// (nothingCanOcclude). Throws Cancelled.
-CoarseMesh findCoarseMesh(const CoarseTrial& trial, const CancelToken& cancel);
+/// (nothingCanOcclude). `coarsest`: see mayBeCoarse. Throws Cancelled.
+CoarseMesh findCoarseMesh(const Mesh& coarsest, const CoarseTrial& trial, const CancelToken& cancel);
 
-/// The time grows with the square of the mesh's elements.
-SolvedAtOnce solveAtOnce(const Mesh& mesh, std::uint64_t seed, bool fewer_channels,
+/// `enough`: more places are looked at where they may show that the error's upper end is below. The time
+/// grows with the square of the mesh's elements.
+SolvedAtOnce solveAtOnce(const Mesh& mesh, double enough, std::uint64_t seed, bool fewer_channels,
                          const CancelToken& cancel);
 
 }  // namespace unshot

@@ -37,7 +37,7 @@ Gather ExactLook::at(const glm::dvec3& position, const glm::dvec3& normal, std::
   for (const Tile& tile : tiles_) {
     // Also where both lie in one plane.
     if (tile.room != room || glm::dot(position - tile.polygon.centre(), tile.normal) <= margin_) continue;
-    const double factor = tile.polygon.exact(position, normal, scratch);
+    const double factor = tile.polygon.quick(position, normal, scratch);
     if (factor <= 0) continue;
     sum += factor;
     out.shares.push_back({tile.element, static_cast<float>(factor)});

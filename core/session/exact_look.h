@@ -1,5 +1,6 @@
-// Irradiance at a point of a scene in which nothing can occlude, from the exact Lambert factor of every
-// element: what the rays of a Gatherer would find, without their noise.
+// Irradiance at a point of a scene in which nothing can occlude, from the Lambert factor of every
+// element, exact or from far away to some 1e-4 of it (FactorPolygon::quick): what the rays of a Gatherer
+// would find, without their noise.
 #pragma once
 
 #include <vector>

@@ -107,6 +107,7 @@ CoarseMesh coarseMesh(const SurfacesOfScene& surfaces, const SolveOptions& optio
   refinement.error *= kFinerLight;
   refinement.emitters = coarsest;
   CoarseMesh found = findCoarseMesh(
+      *coarsest,
       {.error = meshError(options),
        .usual = usual,
        .seed = options.seed,

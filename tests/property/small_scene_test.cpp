@@ -230,8 +230,8 @@ TEST(SmallScene, MakesShortWorkOfSmallScenes) {
   const TempFolder folder;
   const std::filesystem::path assets(UNSHOT_SOURCE_DIR "/assets");
   for (const auto& [path, most_factors] :
-       {std::pair(assets / "furnace.obj", 1e3), std::pair(assets / "two_patches.obj", 12e3),
-        std::pair(std::filesystem::path(writeRoom(folder)), 40e3)}) {
+       {std::pair(assets / "furnace.obj", 1e3), std::pair(assets / "two_patches.obj", 15e3),
+        std::pair(std::filesystem::path(writeRoom(folder)), 30e3)}) {
     const std::string name = path.stem().string();
     const auto make = [&path = path] { return readObj(path); };
     SolveOptions options = soonest(0.01);

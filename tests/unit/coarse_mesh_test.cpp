@@ -26,7 +26,8 @@ struct Trials {
   std::vector<double> tried{};
 
   CoarseMesh find(double error) {
-    return findCoarseMesh({.error = error,
+    return findCoarseMesh(*meshOf(scene, 1),
+                          {.error = error,
                            .usual = 2500,
                            .make =
                                [&](double elements) {
@@ -56,7 +57,7 @@ TEST(CoarseMesh, IsGivenUpEarly) {
 
 TEST(CoarseMesh, IsFinerTheSmallerTheError) {
   std::uint32_t before = 0;
-  for (const double error : {0.2, 0.02}) {
+  for (const double error : {0.2, 0.003}) {
     const CoarseMesh found = Trials{parallelSquares(0.5)}.find(error);
     ASSERT_TRUE(found.mesh) << error;
     EXPECT_LE(found.solved.error.high, 1.5 * error);

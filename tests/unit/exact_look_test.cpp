@@ -25,8 +25,8 @@ TEST(ExactLook, SeesAllOfAClosedRoom) {
       sum += static_cast<double>(share.weight);
       EXPECT_NE(mesh.sides[mesh.element_side[share.element]].normal, glm::dvec3(0, 1, 0));
     }
-    EXPECT_NEAR(sum, 1, 1e-5);  // single precision, some 80 of them
-    EXPECT_LT(look.sky, 1e-5);
+    EXPECT_NEAR(sum, 1, 3e-4);  // far tiles are taken at four points
+    EXPECT_LT(look.sky, 3e-4);
   }
 }
 
