@@ -35,7 +35,12 @@ void main() {
   bool nothing = theirs == vec3(0.0) && all(lessThan(abs(mine - background), vec3(0.002)));
   theirs = light ? toneMap(min(theirs * exposure, vec3(1e4))) : min(theirs, 1.0);
   vec3 shown = gl_FragCoord.x < wipe ? mine : srgbFromLinear(theirs);
-  if (difference) shown = srgbFromLinear(differenceColour(luminance(linearFromSrgb(mine) - theirs)));
+  if (difference) {
+    // What is displayed has steps of 1 / 255: less than one is no difference.
+    float off = luminance(linearFromSrgb(mine) - theirs),
+          step_size = luminance(linearFromSrgb(mine + 0.5 / 255.0) - linearFromSrgb(max(mine - 0.5 / 255.0, 0.0)));
+    shown = srgbFromLinear(differenceColour(sign(off) * max(abs(off) - step_size, 0.0)));
+  }
   if (difference && nothing) shown = vec3(0.1);
   pixel = vec4(shown, nothing ? 0.0 : 1.0);
 }

@@ -1,4 +1,6 @@
 // The frames of the viewer: when there is something to draw, how much of it at a time, and drawing it.
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -34,6 +36,7 @@ constexpr double kSceneSeconds = 0.01;
 constexpr double kProgressSeconds = 0.1;
 // The difference from a reference picture is found no more often than so, and not while the camera moves.
 constexpr double kMeasureSeconds = 0.5;
+constexpr float kRoomy = 32;  // of a window, in letters' heights
 
 bool idle(SessionPhase phase) { return phase != SessionPhase::kRunning && phase != SessionPhase::kLoading; }
 
@@ -223,6 +226,7 @@ bool Viewer::draw(GLuint framebuffer, int width, int height) {
   const bool stands = screenshotStands();
   layOutInPixels(ImGui::GetIO());
   ImGui::NewFrame();
+  if (std::exchange(close_popups_, false)) ImGui::ClosePopupToLevel(0, false);
   if (userActs() && notice_.userActs(now)) input();
   navigate(seconds);
   const bool covered = beside.over > 0;
@@ -233,7 +237,10 @@ bool Viewer::draw(GLuint framebuffer, int width, int height) {
   const bool beside_panel = covered && uncovered >= beside.over;
   LowerEdge edge(static_cast<float>(beside_panel ? uncovered : scene_width_), belowNames(*this), bottom);
   if (!ui_.clean) buildSidePanel(*this, width - beside.panel - beside.over);
-  if (!ui_.clean && !covered) {
+  // Where there is little room a list or the help would lie over legends.
+  const bool crowded =
+      (ui_.prompt.open() || ui_.help) && static_cast<float>(height) < kRoomy * ImGui::GetFontSize();
+  if (!ui_.clean && !covered && !crowded) {
     buildFalseColourLegend(*this, edge);
     buildReferencePicture(*this, bottom, edge);
     buildLegend(*state_, ui_.settings.view, edge);

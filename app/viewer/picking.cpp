@@ -85,8 +85,9 @@ constexpr std::array kQuantities = {
         "U = R B \u2212 S [W/m\u00b2]: what the patch has of radiosity, its mean R B, and has not shot "
         "yet; interpolated between patches",
         false, unshotOf},
-    PickedQuantity{"Power of patch", "W",
-                   "\u2211 A B over the elements of the patch [W]: all light that leaves it", false, powerOf},
+    PickedQuantity{"Power [W]", "W",
+                   "\u2211 A B over the elements of the patch [W], A their areas: all light that leaves it",
+                   false, powerOf},
     PickedQuantity{
         "Bounces", "",
         "Expected bounces: how many surfaces light that leaves here meets, this one included; v in "
@@ -98,7 +99,9 @@ constexpr std::array kQuantities = {
         "mesh (RMS over channels) [W/m\u00b2]",
         true, residualOf},
     PickedQuantity{"Row sum of K", "",
-                   "\u2211 K over the patches that have light and the sky: the part of what this point sees "
+                   "\u2211 K over the patches that have light and the sky, K their form factors G as this "
+                   "point has them, "
+                   "closed where the scene is: the part of what this point sees "
                    "that is lit, 1 where "
                    "nothing escapes. Known at rest, once their form factors are at hand (below Bounces, "
                    "those missing are "

@@ -2,6 +2,7 @@
 #include <imgui.h>
 
 #include "base/atomic_file.h"
+#include "viewer/panels/sections.h"
 #include "viewer/teaching.h"
 #include "viewer/viewer.h"
 
@@ -20,7 +21,9 @@ void Viewer::pickClicked() {
   pick_wanted_.reset();
   const ImGuiIO& io = ImGui::GetIO();
   const float still = kStill * static_cast<float>(scale_);
+  // A click that closes a list is for that alone.
   if (!io.MouseReleased[ImGuiMouseButton_Left] || io.WantCaptureMouse ||
+      io.MouseDownOwned[ImGuiMouseButton_Left] ||
       io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] > still * still)
     return;
   const ImVec2 mouse = io.MouseClickedPos[ImGuiMouseButton_Left];
@@ -41,7 +44,9 @@ void Viewer::pickAt(const Camera& camera, int width, const glm::dvec2& at) {
   const double aspect = static_cast<double>(width) / scene_height_;
   const Mesh& mesh = *state_->snapshot->mesh;
   const Sight sight = sightAt(camera, aspect, {mesh.bounds_min, mesh.bounds_max}, at);
+  const bool first = !picking_.picked();
   picking_.pick(*state_, sight.from, sight.along);
+  if (first && picking_.picked()) openSection(ui_, "picked", true);
   if (const auto& point = picking_.picked())
     ui_.material = state_->snapshot->mesh->surfaces[point->pick.surface].material;
   input();

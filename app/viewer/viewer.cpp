@@ -1,5 +1,8 @@
 #include "viewer/viewer.h"
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -21,6 +24,8 @@ namespace unshot {
 namespace {
 
 constexpr double kRateWindow = 1;
+// A solve that took no longer may be begun anew by a step [s].
+constexpr double kSoonAgain = 10;
 
 }  // namespace
 
@@ -195,7 +200,9 @@ void Viewer::perform(std::string_view action, const std::string& argument) {
     if (ending() && action != "give-up" && action != "dismiss") return;  // it only ends what it has begun
     const std::string wrong = checkArgument(row, argument);
     if (!wrong.empty()) throw Error(ErrorKind::kUsage, wrong, {}, "H lists what can be done");
+    const std::uint64_t sent = session_.sent();
     row.run(*this, argument);
+    if (session_.sent() != sent) changes_sent_ = session_.sent();
     followTeaching();
   } catch (...) {
     fail(presentError());
@@ -205,6 +212,11 @@ void Viewer::perform(std::string_view action, const std::string& argument) {
 
 void Viewer::key(int key, bool ctrl) {
   endHint();
+  // An open list has the keyboard, of which it takes Esc alone.
+  if (ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup)) {
+    close_popups_ = key == GLFW_KEY_ESCAPE;
+    return input();
+  }
   if (ui_.prompt.open()) return;  // what is typed before its line is there is for it too
   if (const Action* action = actionOfKey(key, ctrl)) perform(action->key, action->argumentOfKey(key));
 }
@@ -343,9 +355,20 @@ bool Viewer::solveGoesOn() const {
   return state_->phase == SessionPhase::kPaused || state_->phase == SessionPhase::kRunning;
 }
 
+bool Viewer::stepsFromNothing() const {
+  return (state_->phase == SessionPhase::kConverged || state_->phase == SessionPhase::kStopped) &&
+         state_->stopped_by != "no light" && state_->measures.seconds <= kSoonAgain;
+}
+
 void Viewer::step(std::uint64_t shots) {
-  // A command under way may be what begins the solve anew.
-  const bool up_to_date = session_.sent() == state_->commands;
+  // A command under way may be what begins the solve anew; what a lecture asks to know is not.
+  const bool up_to_date = changes_sent_ <= state_->commands;
+  if (up_to_date && stepsFromNothing()) {
+    const Session::Hold hold(session_);
+    session_.shootAgain();
+    session_.step(shots);
+    return notice("step by step, from nothing shot; Resume goes on to the end");
+  }
   if (up_to_date && state_->phase == SessionPhase::kConverged)
     notice(state_->stopped_by == "no light" ? "no light to shoot" : "converged; Again shoots it anew");
   if (up_to_date && state_->phase == SessionPhase::kStopped) notice("limit reached; Again shoots it anew");
@@ -379,6 +402,11 @@ void Viewer::forgetOldLight() {
 
 void Viewer::resizeWindow(int width, int height) {
   if (setup_.resize) setup_.resize(width, height);
+}
+
+void Viewer::fillScreen(std::optional<bool> on) {
+  if (!setup_.full_screen) return passingNotice("without a window there is no screen to fill");
+  setup_.full_screen(on);
 }
 
 double Viewer::nextUpdate() const {

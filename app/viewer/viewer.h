@@ -59,6 +59,9 @@ struct ViewerSetup {
   std::string script_name;
   /// Asks the window for another size [px]; may be empty.
   std::function<void(int, int)> resize;
+  /// Makes the window fill its screen or go back to its place (none: the other of both); null where there is
+  /// no window.
+  std::function<void(std::optional<bool>)> full_screen;
   /// What is printed on a key, as GLFW numbers and names it; null where that is not known. May be empty.
   std::function<const char*(int key)> key_name;
   /// Gives the window another title; may be empty.
@@ -212,6 +215,8 @@ class Viewer {
   void resume() { session_.resume(); }
   /// Whether the solve runs or is paused: else there is nothing to pause or to step.
   bool solveGoesOn() const;
+  /// Whether a step of what has ended begins it anew: where that is soon where it was.
+  bool stepsFromNothing() const;
   /// Where the solve has ended nothing is shot, and a notice says so.
   void step(std::uint64_t shots);
   /// Shows the light of up to so many bounces, or of that bounce alone, working them out where that takes
@@ -245,6 +250,7 @@ class Viewer {
   void copyCamera(bool options);
   Navigator& navigator() { return navigator_; }
   void resizeWindow(int width, int height);
+  void fillScreen(std::optional<bool> on);
   const Picking& picking() const { return picking_; }
   /// Picks in the next frame what is at this place in the picture of the present solve, in units of its width
   /// and height from left and top, [0, 1]; unpicks where there is nothing.
@@ -438,7 +444,9 @@ class Viewer {
   PictureCosts costs_;                           // of the last ones
   double fine_cost_ = 0;                         // of the last one with all its pixels
   double picture_cost_ = 0;                      // of the one being drawn, so far
+  std::uint64_t changes_sent_ = 0;               // Session::sent() after the last action that sent anything
   bool coarse_ = false;                          // pictures are, while the camera moves
+  bool close_popups_ = false;                    // Esc closes the list that is open
   Camera seen_camera_;                           // that of the last frame
   std::optional<PaintedLook> painted_;
   bool drew_scene_ = false;  // since the last frame

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "base/clock.h"
@@ -153,6 +155,52 @@ void resize(GLFWwindow* window, int width, int height) {
                     static_cast<int>(std::lround(unit * height)));
 }
 
+/// The monitor that most of the window is on.
+GLFWmonitor* monitorOf(GLFWwindow* window) {
+  int x = 0, y = 0, width = 0, height = 0, count = 0;
+  glfwGetWindowPos(window, &x, &y);
+  glfwGetWindowSize(window, &width, &height);
+  GLFWmonitor** const monitors = glfwGetMonitors(&count);
+  GLFWmonitor* best = count > 0 ? monitors[0] : nullptr;
+  long most = 0;
+  for (GLFWmonitor* const monitor : std::span(monitors, static_cast<std::size_t>(count))) {
+    int left = 0, top = 0;
+    glfwGetMonitorPos(monitor, &left, &top);
+    const GLFWvidmode* const mode = glfwGetVideoMode(monitor);
+    const long across = std::min(x + width, left + mode->width) - std::max(x, left),
+               down = std::min(y + height, top + mode->height) - std::max(y, top);
+    if (across <= 0 || down <= 0 || across * down <= most) continue;
+    most = across * down;
+    best = monitor;
+  }
+  return best;
+}
+
+/// Fills the screen with the window, and remembers where it was before.
+class FullScreen {
+ public:
+  explicit FullScreen(GLFWwindow* window) : window_(window) {}
+
+  void set(std::optional<bool> wanted) {
+    const bool on = glfwGetWindowMonitor(window_) != nullptr;
+    if (wanted.value_or(!on) == on) return;
+    if (on) {
+      glfwSetWindowMonitor(window_, nullptr, x_, y_, width_, height_, GLFW_DONT_CARE);
+      return;
+    }
+    GLFWmonitor* const monitor = monitorOf(window_);
+    if (!monitor) return;
+    glfwGetWindowPos(window_, &x_, &y_);
+    glfwGetWindowSize(window_, &width_, &height_);
+    const GLFWvidmode* const mode = glfwGetVideoMode(monitor);
+    glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+  }
+
+ private:
+  GLFWwindow* window_;
+  int x_ = 0, y_ = 0, width_ = 0, height_ = 0;
+};
+
 /// The size of a first window on a screen with a larger scale, where the window system counts in pixels.
 void fitToScale(GLFWwindow* window, const WindowOptions& options, double scale) {
   int units = 0, pixels = 0;
@@ -213,6 +261,8 @@ int runWindow(ViewerSetup setup, const WindowOptions& wanted) {
     setup.session.gl = solver.get();
     setup.session.wake = [] { glfwPostEmptyEvent(); };
     setup.resize = [window](int width, int height) { resize(window, width, height); };
+    FullScreen full_screen(window);
+    setup.full_screen = [&](std::optional<bool> on) { full_screen.set(on); };
     setup.key_name = [](int key) { return glfwGetKeyName(key, 0); };
     setup.title = [window](const std::string& title) { glfwSetWindowTitle(window, title.c_str()); };
     std::shared_ptr<void> watch;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
@@ -12,17 +13,17 @@ namespace {
 
 constexpr std::uint32_t kLeafSize = 8;
 
-// Whether the segment meets the box (slab test over t in [0, 1]).
-bool segmentMeetsBox(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& low,
+// Whether the segment from a on meets the box (slab test over t in [0, 1]). `inverse`: 1 / (b - a), infinite
+// along axes that it does not go along.
+bool segmentMeetsBox(const glm::dvec3& a, const glm::dvec3& inverse, const glm::dvec3& low,
                      const glm::dvec3& high) {
   double t0 = 0, t1 = 1;
   for (int k = 0; k < 3; ++k) {
-    const double d = b[k] - a[k];
-    if (d == 0) {
+    if (std::isinf(inverse[k])) {
       if (a[k] < low[k] || a[k] > high[k]) return false;
       continue;
     }
-    double enter = (low[k] - a[k]) / d, leave = (high[k] - a[k]) / d;
+    double enter = (low[k] - a[k]) * inverse[k], leave = (high[k] - a[k]) * inverse[k];
     if (enter > leave) std::swap(enter, leave);
     t0 = std::max(t0, enter);
     t1 = std::min(t1, leave);
@@ -111,10 +112,11 @@ void PointTree::nearSegment(const glm::dvec3& a, const glm::dvec3& b, double dis
         });
     return;
   }
+  const glm::dvec3 inverse = 1.0 / (b - a);
   search(
       [&](const Box& box) {
         return glm::all(glm::lessThanEqual(box.low, high)) && glm::all(glm::lessThanEqual(low, box.high)) &&
-               segmentMeetsBox(a, b, box.low - distance, box.high + distance);
+               segmentMeetsBox(a, inverse, box.low - distance, box.high + distance);
       },
       [&](std::uint32_t k) {
         if (squaredDistanceToSegment(points_[k], a, b) <= distance * distance) found(k);
@@ -122,14 +124,20 @@ void PointTree::nearSegment(const glm::dvec3& a, const glm::dvec3& b, double dis
       });
 }
 
-bool PointTree::anyInFront(const glm::dvec3& normal, double offset) const {
+bool PointTree::anyInFront(std::span<const HalfSpace> planes) const {
   return search(
       [&](const Box& box) {
-        const glm::dvec3 corner{normal.x > 0 ? box.high.x : box.low.x, normal.y > 0 ? box.high.y : box.low.y,
-                                normal.z > 0 ? box.high.z : box.low.z};
-        return glm::dot(normal, corner) > offset;
+        return std::all_of(planes.begin(), planes.end(), [&](const HalfSpace& in) {
+          const glm::dvec3 corner{in.normal.x > 0 ? box.high.x : box.low.x,
+                                  in.normal.y > 0 ? box.high.y : box.low.y,
+                                  in.normal.z > 0 ? box.high.z : box.low.z};
+          return glm::dot(in.normal, corner) > in.offset;
+        });
       },
-      [&](std::uint32_t k) { return glm::dot(normal, points_[k]) > offset; });
+      [&](std::uint32_t k) {
+        return std::all_of(planes.begin(), planes.end(),
+                           [&](const HalfSpace& in) { return glm::dot(in.normal, points_[k]) > in.offset; });
+      });
 }
 
 }  // namespace unshot

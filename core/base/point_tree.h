@@ -21,8 +21,14 @@ class PointTree {
   void nearSegment(const glm::dvec3& a, const glm::dvec3& b, double distance,
                    const std::function<void(std::uint32_t)>& found) const;
 
-  /// Whether some point p has dot(normal, p) > offset.
-  bool anyInFront(const glm::dvec3& normal, double offset) const;
+  /// The half-space in front of a plane: dot(normal, p) > offset.
+  struct HalfSpace {
+    glm::dvec3 normal;
+    double offset;
+  };
+  /// Whether some point lies in all of these.
+  bool anyInFront(std::span<const HalfSpace> planes) const;
+  bool anyInFront(const HalfSpace& plane) const { return anyInFront(std::span(&plane, 1)); }
 
  private:
   struct Box {

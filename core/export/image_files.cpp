@@ -46,7 +46,7 @@ void requireDecoded(const StbPixels<Value>& pixels, const std::filesystem::path&
   if (pixels) return;
   throw Error(ErrorKind::kInput,
               std::string("this is not a picture that can be read (") + stbi_failure_reason() + ")",
-              path.string(), "a PNG, Radiance HDR or PFM file");
+              path.string(), "a PNG, JPEG, Radiance HDR or PFM file");
 }
 
 /// Bytes as stb_image reads them; they end where reading is given up.

@@ -10,12 +10,21 @@ namespace unshot {
 
 namespace {
 
-// atan(x) / x as a polynomial in x^2, highest power first, for |x| <= tan(pi / 8): the Chebyshev fit of
+// atan(x) / x as a polynomial in x^2, lowest power first, for |x| <= tan(pi / 8): the Chebyshev fit of
 // degree 10, which is off by 4e-17 at most.
 constexpr std::array<double, 11> kArcTangent{
-    0.021135373157693245, -0.043480522157164625, 0.056883492268090105, -0.066402339304294086,
-    0.076899534963068578, -0.090907730748084138, 0.11111106180455945,  -0.14285714180976467,
-    0.19999999998855110,  -0.33333333333328439,  0.99999999999999997};
+    0.99999999999999997,  -0.33333333333328439,  0.19999999998855110,  -0.14285714180976467,
+    0.11111106180455945,  -0.090907730748084138, 0.076899534963068578, -0.066402339304294086,
+    0.056883492268090105, -0.043480522157164625, 0.021135373157693245};
+
+// By Estrin's scheme, whose terms do not wait for each other as Horner's do.
+inline double arcTangentOver(double y) {
+  constexpr auto& c = kArcTangent;
+  const double y2 = y * y, y4 = y2 * y2;
+  const double low = (c[0] + c[1] * y) + (c[2] + c[3] * y) * y2,
+               middle = (c[4] + c[5] * y) + (c[6] + c[7] * y) * y2, high = (c[8] + c[9] * y) + c[10] * y2;
+  return low + (middle + high * y4) * y4;
+}
 constexpr double kEighth = std::numbers::sqrt2 - 1;  // tan(pi / 8)
 
 // A ring of corners around the point that is the origin, coordinate by coordinate, so that edges are worked
@@ -47,10 +56,7 @@ double factorOf(const Ring<kMost>& ring, const std::size_t n, const glm::dvec3& 
     const double nearer = ring.length[k] * ring.length[k + 1] + std::abs(dot);  // less than a right angle
     const bool wide = cross > kEighth * nearer;  // atan(x) = pi / 4 + atan((x - 1) / (x + 1))
     const double x = (wide ? cross - nearer : cross) / (wide ? cross + nearer : nearer);
-    const double square = x * x;
-    double sum = kArcTangent[0];
-    for (std::size_t i = 1; i < kArcTangent.size(); ++i) sum = sum * square + kArcTangent[i];
-    const double half = sum * x + (wide ? std::numbers::pi / 4 : 0.0);
+    const double half = arcTangentOver(x * x) * x + (wide ? std::numbers::pi / 4 : 0.0);
     angle[k] = dot < 0 ? std::numbers::pi - 2 * half : 2 * half;
     along[k] = (normal.x * cx + normal.y * cy + normal.z * cz) / (cross > 0 ? cross : 1.0);
   }

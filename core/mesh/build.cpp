@@ -4,19 +4,17 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <numeric>
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "base/point_tree.h"
 #include "base/text.h"
 #include "mesh/display.h"
 #include "mesh/grid.h"
+#include "mesh/kept_sides.h"
 #include "mesh/lit.h"
 #include "mesh/near_emitters.h"
 #include "mesh/numbering.h"
 #include "mesh/patch_parts.h"
-#include "mesh/reach.h"
 #include "mesh/weld.h"
 
 namespace unshot {
@@ -30,85 +28,6 @@ std::uint32_t patchCells(double elements) {
   std::uint32_t cells = 1;
   while (cells < 8 && elements / (cells * cells) > 1000) cells *= 2;
   return cells;
-}
-
-// What lies in front of surfaces, of some of them.
-class Fronts {
- public:
-  Fronts(const Mesh& mesh, std::span<const std::uint32_t> surfaces, const CancelToken& cancel)
-      : margin_(2 * mesh.weld_distance), points_(pointsOf(mesh, surfaces)), tree_(points_, cancel) {}
-
-  bool seesSomething(const Surface& surface, bool back) const {
-    const glm::dvec3 normal = back ? -surface.normal : surface.normal;
-    return tree_.anyInFront(normal, glm::dot(normal, surface.origin) + margin_);
-  }
-
- private:
-  static std::vector<glm::dvec3> pointsOf(const Mesh& mesh, std::span<const std::uint32_t> surfaces) {
-    std::vector<std::uint32_t> used;
-    for (const std::uint32_t s : surfaces) {
-      const Range triangles = mesh.surfaces[s].triangles;
-      for (std::uint32_t t = triangles.first; t < triangles.end(); ++t) {
-        const std::uint32_t* corners = mesh.triangles[t].position;
-        used.insert(used.end(), corners, corners + 3);
-      }
-    }
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    std::vector<glm::dvec3> out;
-    for (const std::uint32_t v : used) out.push_back(mesh.positions[v]);
-    return out;
-  }
-
-  double margin_;
-  std::vector<glm::dvec3> points_;
-  PointTree tree_;
-};
-
-// Of each of these sides the room; all the same where there is one, or where it is not known of each.
-std::vector<std::uint32_t> roomsOf(const MeshOptions& options, const std::vector<char>& keep,
-                                   std::vector<std::uint32_t> rooms) {
-  bool known = !options.rooms_unknown && !rooms.empty();
-  for (std::size_t k = 0; known && k < keep.size(); ++k) known = !keep[k] || rooms[k] != kNone;
-  return known ? std::move(rooms) : std::vector<std::uint32_t>(keep.size(), 0);
-}
-
-// Two flags for each surface: whether light may reach that side, which it does not where nothing of the scene
-// lies in front of it (and its own meets nothing then), nor where surfaces keep it away (mesh/reach.h). And
-// in which rooms these are.
-struct KeptSides {
-  std::vector<char> keep;
-  std::vector<std::uint32_t> rooms;
-};
-
-KeptSides sidesToKeep(const MeshOptions& options, const std::vector<SurfaceEdge>& edges,
-                      std::span<const Crossing> crossings, Mesh& mesh, const CancelToken& cancel) {
-  const std::size_t count = 2 * mesh.surfaces.size();
-  std::vector<char> keep(count, 1), sees(count);
-  const auto inOneRoom = [&] { return KeptSides{keep, std::vector<std::uint32_t>(count, 0)}; };
-  if (options.sky || (options.outer_sides && options.dark_sides)) return inOneRoom();
-  std::vector<std::uint32_t> all(mesh.surfaces.size());
-  std::iota(all.begin(), all.end(), 0u);
-  const Fronts fronts(mesh, all, cancel);
-  for (std::size_t k = 0; k < count; ++k) {
-    cancel.check();
-    sees[k] = fronts.seesSomething(mesh.surfaces[k / 2], k % 2 != 0);
-    mesh.surfaces[k / 2].outer[k % 2] = !sees[k];
-  }
-  // A flat sheet sees nothing at all; it is kept whole, so that it can be shown.
-  if (std::find(sees.begin(), sees.end(), 1) == sees.end()) return inOneRoom();
-  if (!options.outer_sides) keep = sees;
-  if (options.dark_sides) return inOneRoom();
-  std::vector<char> emits(count);  // what sees nothing lights nothing
-  for (std::size_t k = 0; k < count; ++k) {
-    const bool light = mesh.materials[mesh.surfaces[k / 2].material].emits();
-    emits[k] = sees[k] && light && !(k % 2 != 0 && options.emit_front_only);
-  }
-  Reached reached = findReach(mesh, edges, crossings, emits, mesh.weld_distance, cancel);
-  // What sides beyond emit leaves the scene.
-  mesh.closed = reached.closed && !options.escape_unknown && !options.outer_sides;
-  for (std::size_t k = 0; k < count; ++k) keep[k] = keep[k] && (reached.sides[k] || !sees[k]);
-  return {keep, roomsOf(options, keep, std::move(reached.rooms))};
 }
 
 void makeSides(const MeshOptions& options, const KeptSides& kept, Mesh& mesh) {
@@ -133,33 +52,6 @@ void makeSides(const MeshOptions& options, const KeptSides& kept, Mesh& mesh) {
 }
 
 int litSides(const Surface& s) { return (s.side[0] != kNone) + (s.side[1] != kNone); }
-
-// If all of a room lies on one side of the planes of all surfaces around it, it lies on the border of a
-// convex body, and a line of sight between two of its points stays inside.
-void findBetween(bool sky, Mesh& mesh, const CancelToken& cancel) {
-  std::vector<std::vector<std::uint32_t>> rooms;  // surfaces with sides there
-  for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
-    mesh.surfaces[s].between = sky && isLit(mesh.surfaces[s]);
-    for (const std::uint32_t side : mesh.surfaces[s].side) {
-      if (side == kNone) continue;
-      const std::uint32_t room = mesh.sides[side].room;
-      if (room >= rooms.size()) rooms.resize(room + 1);
-      if (rooms[room].empty() || rooms[room].back() != s) rooms[room].push_back(s);
-    }
-  }
-  std::size_t done = 0;
-  for (const std::vector<std::uint32_t>& room : rooms) {
-    if (sky || room.empty()) continue;
-    const Fronts fronts(mesh, room, cancel);
-    for (const std::uint32_t s : room) {
-      cancel.check();
-      cancel.report(std::min(1.0, static_cast<double>(++done) / static_cast<double>(mesh.surfaces.size())));
-      Surface& surface = mesh.surfaces[s];
-      surface.between =
-          surface.between || (fronts.seesSomething(surface, false) && fronts.seesSomething(surface, true));
-    }
-  }
-}
 
 // Where `paired`, an even number as soon as it is more than one.
 std::uint32_t cellsAlong(double extent, double size, bool paired) {

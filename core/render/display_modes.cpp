@@ -29,7 +29,8 @@ std::span<const DisplayMode> displayModes() {
       {.info = {"emission", "Emission", "the light sources alone, E"}, .quantity = Quantity::kEmission},
       {.info = {"reflectance", "Reflectance", "the colours of the materials, rho, from black 0 to white 1"},
        .quantity = Quantity::kReflectance,
-       .tone_mapped = false},
+       .tone_mapped = false,
+       .exposed = false},
       {.info = {"bounces", "Expected bounces",
                 "how many surfaces light from here meets on average, v of (I - M) v = 1, as a scale of "
                 "colours; black until it is known"},

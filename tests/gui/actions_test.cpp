@@ -343,7 +343,8 @@ bool showsNotice(LiveViewer& live) {
   return window && window->Active;
 }
 
-TEST(LiveViewer, StepSaysWhyItShootsNothing) {
+// What has converged soon may be gone through step by step: a lecture's first wish.
+TEST(LiveViewer, StepBeginsAgainWhatHasConverged) {
   LiveViewer::Options options = boxToActOn();
   options.script = "pause on\nstep\nwait shots 1\n";
   LiveViewer live(options);
@@ -352,8 +353,12 @@ TEST(LiveViewer, StepSaysWhyItShootsNothing) {
   live->perform("pause", "off");
   ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
   EXPECT_FALSE(showsNotice(live));
-  live->perform("step");
+  live->perform("step", "2");
   EXPECT_TRUE(showsNotice(live));
+  ASSERT_TRUE(live.untilPhase(SessionPhase::kPaused));
+  EXPECT_EQ(live->state().measures.shots, 2u);
+  live->perform("pause", "off");
+  EXPECT_TRUE(live.untilPhase(SessionPhase::kConverged));
   EXPECT_EQ(live->exitCode(), 0);
 }
 

@@ -33,7 +33,7 @@ class Controls : public testing::Test {
     options.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
     options.solve.elements = 200;
     options.solve.error = 0.1;
-    options.width = 1004;
+    options.width = 1020;
     options.height = 2000;  // all of the panel is in it: what is not cannot be clicked
     return options;
   }
@@ -241,7 +241,7 @@ TEST(ControlsOfTheWindow, FollowTheMouse) {
     LiveViewer::Options options;
     options.scene = std::string(UNSHOT_SOURCE_DIR) + "/assets/cornell_box.obj";
     options.solve.elements = 300;
-    options.width = 1004;
+    options.width = 1020;
     options.height = 1050;
     LiveViewer model(options);
     ASSERT_TRUE(model.untilPhase(SessionPhase::kConverged));
@@ -263,7 +263,7 @@ TEST(ControlsOfTheWindow, FollowTheMouse) {
   ASSERT_TRUE(places.contains("##exposure") && places.contains("##angle"));
   const Screen screen;
   const TempFolder folder;
-  WindowRun run({"--size", "1004x1050", "--elements", "300", "--script",
+  WindowRun run({"--size", "1020x1050", "--elements", "300", "--script",
                  folder.write("camera.script", "section camera on\n")});
   ASSERT_TRUE(run.hasTitle("cornell_box \u2013 Unshot"));
   std::string scene = run.sceneAtRest();
@@ -288,7 +288,7 @@ TEST(ControlsOfTheWindow, FollowTheMouse) {
   const auto picture = [&] { return run.folder().read(run.screenshot("F12")); };
   move({200, 300});
   const std::string without = picture();
-  move({1004 - 304 + 30, places.at("##exposure").y});
+  move({1020 - 320 + 30, places.at("##exposure").y});
   EXPECT_TRUE(eventually([&] { return picture() != without || HasFailure(); })) << "no tooltip";
   run.key("ctrl+q");
   EXPECT_EQ(run.end().code, 0);

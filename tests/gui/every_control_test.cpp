@@ -38,8 +38,8 @@ class EveryControl : public testing::Test {
     options.solve.elements = 150;
     options.solve.error = 0.3;
     options.solve.form_factors = "hemicube";
-    options.width = 1004;
-    options.height = 2640;  // all of the panel is in it
+    options.width = 1020;
+    options.height = 2700;  // all of the panel is in it
     return options;
   }
   void act(const std::string& action, const std::string& argument = {}) {
@@ -49,6 +49,8 @@ class EveryControl : public testing::Test {
   bool solved() {
     return live_.until([&] {
       const SessionPhase phase = live_->state().phase;
+      // What has converged is paused again once Step has begun it anew.
+      if (live_->upToDate() && phase == SessionPhase::kPaused) act("pause", "off");
       return live_->upToDate() && phase != SessionPhase::kLoading && phase != SessionPhase::kRunning &&
              phase != SessionPhase::kPaused && live_->scriptDone();
     });

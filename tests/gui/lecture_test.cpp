@@ -300,6 +300,9 @@ TEST(Lecture, StepIsDisabledWhereNothingIsToBeShot) {
   live->perform("pause", "off");
   ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
   EXPECT_FALSE(live->solveGoesOn());
+  EXPECT_TRUE(firstButtonIsEnabled(live)) << "it begins again, shot by shot";
+  live->perform("light", "light off");
+  ASSERT_TRUE(live.until([&] { return live->state().stopped_by == "no light"; }));
   EXPECT_FALSE(firstButtonIsEnabled(live));
 }
 

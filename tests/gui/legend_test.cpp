@@ -62,8 +62,9 @@ TEST_F(Legend, SaysQuantityAndUnit) {
   EXPECT_THAT(of("difference"), HasSubstr("alllight\u2212directlightalone"));
   EXPECT_THAT(of("difference"), HasSubstr("%"));
   act("unit", "683");
-  EXPECT_THAT(of("residual"), HasSubstr("[lux]"));
-  EXPECT_THAT(of("false-unshot"), HasSubstr("[lux]"));
+  EXPECT_THAT(of("residual"), HasSubstr("[lm/m\u00b2]")) << "leaves a surface";
+  EXPECT_THAT(of("false-unshot"), HasSubstr("[lm/m\u00b2]"));
+  EXPECT_THAT(of("false-irradiance"), HasSubstr("[lux]"));
   EXPECT_THAT(of("bounces"), HasSubstr("[surfacesmet]")) << "is no light";
   EXPECT_THAT(of("difference"), HasSubstr("%"));
 }

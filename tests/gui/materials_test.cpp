@@ -21,7 +21,7 @@ LiveViewer::Options boxToEdit(const std::string& script = {}) {
   options.solve.elements = 200;
   options.solve.error = 0.01;
   options.script = script;
-  options.width = 1004;
+  options.width = 1020;
   options.height = 1600;  // all of the panel is in it: what is not cannot be clicked
   return options;
 }

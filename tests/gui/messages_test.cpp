@@ -203,7 +203,7 @@ TEST(ViewerMessages, WhatACommandCameToIsToBeRead) {
   ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
   ASSERT_TRUE(live.until([&] { return live->upToDate(); }));
   live->perform("step");
-  EXPECT_THAT(live->messages().lines(), testing::Contains(HasSubstr("Again")));
+  EXPECT_THAT(live->messages().lines(), testing::Contains(HasSubstr("from nothing")));
   live->perform("projection", "orthographic");
   EXPECT_EQ(live->messages().unread(), 1u) << "an echo needs no reader";
   live->perform("copy-camera", "options");

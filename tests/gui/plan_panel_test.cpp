@@ -26,7 +26,7 @@ LiveViewer::Options boxWithAPlan(const std::string& script = {}) {
   options.solve.elements = 200;
   options.solve.error = 0.1;
   options.script = script;
-  options.width = 1004;
+  options.width = 1020;
   options.height = 1900;  // all of the panel is in it: what is not cannot be clicked
   return options;
 }

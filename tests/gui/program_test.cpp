@@ -44,7 +44,7 @@ TEST(Program, OpensConvergesAndTakesScreenshots) {
   const ImageF all = picture(folder, "all.png"), scene = picture(folder, "scene.png");
   EXPECT_EQ(all.width, 960);
   EXPECT_EQ(all.height, 300);
-  EXPECT_EQ(scene.width, 960 - 304) << "without the panel";
+  EXPECT_EQ(scene.width, 960 - 320) << "without the panel";
   EXPECT_EQ(scene.height, 300);
   EXPECT_EQ(picture(folder, "wide.png").width, 960);
   EXPECT_EQ(folder.read("wide.png"), folder.read("last.png"));

@@ -141,7 +141,7 @@ TEST(BounceText, NamesTheTermOfTheSeries) {
   EXPECT_EQ(bounceText(power, 1),
             "Bounce 1, B_1 = M E: \u2211 A B_1 is 50 % of the light emitted, 0.5 times E");
   EXPECT_EQ(bounceText(power, 3),
-            "Bounce 3, B_3 = M^3 E: \u2211 A B_3 is 12.5 % of the light emitted, 0.5 times bounce 2");
+            "Bounce 3, B_3 = M\u00b3 E: \u2211 A B_3 is 12.5 % of the light emitted, 0.5 times bounce 2");
 }
 
 TEST_F(Tips, OfFormFactorsHaveTheLecturesSymbol) {

@@ -71,7 +71,12 @@ TEST(PointTree, KnowsWhetherAPointLiesInFrontOfAPlane) {
       const double offset = dice.between(-2, 2);
       const bool expected = std::any_of(points.begin(), points.end(),
                                         [&](const auto& p) { return glm::dot(normal, p) > offset; });
-      EXPECT_EQ(tree.anyInFront(normal, offset), expected) << "seed " << seed;
+      EXPECT_EQ(tree.anyInFront({normal, offset}), expected) << "seed " << seed;
+      const PointTree::HalfSpace both[] = {{normal, offset}, {dice.direction(), dice.between(-2, 2)}};
+      const bool in_both = std::any_of(points.begin(), points.end(), [&](const auto& p) {
+        return glm::dot(normal, p) > offset && glm::dot(both[1].normal, p) > both[1].offset;
+      });
+      EXPECT_EQ(tree.anyInFront(both), in_both) << "seed " << seed;
     }
   }
 }
@@ -79,7 +84,7 @@ TEST(PointTree, KnowsWhetherAPointLiesInFrontOfAPlane) {
 TEST(PointTree, IsEmptyWithoutPoints) {
   const PointTree tree({});
   tree.nearSegment({0, 0, 0}, {1, 0, 0}, 10, [](std::uint32_t) { FAIL(); });
-  EXPECT_FALSE(tree.anyInFront({1, 0, 0}, -10));
+  EXPECT_FALSE(tree.anyInFront({{1, 0, 0}, -10}));
 }
 
 TEST(BoxTree, FindsTheSameBoxesAsLookingAtAll) {

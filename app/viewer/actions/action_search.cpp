@@ -36,17 +36,42 @@ TypedAction typedAction(std::string_view text) {
   return {};
 }
 
-std::vector<FoundAction> matchingActions(std::string_view text) {
-  const TypedAction typed = typedAction(text);
-  if (typed.action) {
-    std::vector<FoundAction> rows;
-    addChoices(*typed.action, lowered(typed.argument), rows);
-    const bool whole = std::any_of(rows.begin(), rows.end(),
-                                   [&](const FoundAction& row) { return row.argument == typed.argument; });
-    if (whole || rows.empty()) return {{typed.action, typed.argument, {}}};
-    return rows;
+namespace {
+
+/// Words that other programs have for what is called otherwise here.
+struct OtherWord {
+  std::string_view word, here;
+};
+constexpr std::array<OtherWord, 18> kOtherWords = {{{"wireframe", "mesh"},
+                                                    {"grid", "mesh"},
+                                                    {"color", "colour"},
+                                                    {"colors", "colour"},
+                                                    {"heatmap", "false colour"},
+                                                    {"heat", "false"},
+                                                    {"save", "write"},
+                                                    {"export", "write"},
+                                                    {"image", "png"},
+                                                    {"picture", "png"},
+                                                    {"brightness", "exposure"},
+                                                    {"gamma", "tone"},
+                                                    {"albedo", "reflectance"},
+                                                    {"wall", "material"},
+                                                    {"zoom", "camera"},
+                                                    {"lamp", "light"},
+                                                    {"exit", "quit"},
+                                                    {"close", "quit"}}};
+
+std::string inWordsOfHere(const std::string& text) {
+  std::string out;
+  for (const std::string_view word : splitParts(text, ' ')) {
+    const auto other = std::find_if(kOtherWords.begin(), kOtherWords.end(),
+                                    [&](const OtherWord& o) { return o.word == word; });
+    out += (out.empty() ? "" : " ") + std::string(other == kOtherWords.end() ? word : other->here);
   }
-  const std::string wanted = lowered(trimmed(text));
+  return out;
+}
+
+std::vector<FoundAction> actionsWith(const std::string& wanted) {
   enum Rank { kSame, kBegins, kHas, kChoice, kSays, kRanks };
   std::array<std::vector<FoundAction>, kRanks> found;
   for (const ActionGroup& group : actionGroups()) {
@@ -72,6 +97,23 @@ std::vector<FoundAction> matchingActions(std::string_view text) {
   std::vector<FoundAction> rows;
   for (const auto& some : found) rows.insert(rows.end(), some.begin(), some.end());
   return rows;
+}
+
+}  // namespace
+
+std::vector<FoundAction> matchingActions(std::string_view text) {
+  const TypedAction typed = typedAction(text);
+  if (typed.action) {
+    std::vector<FoundAction> rows;
+    addChoices(*typed.action, lowered(typed.argument), rows);
+    const bool whole = std::any_of(rows.begin(), rows.end(),
+                                   [&](const FoundAction& row) { return row.argument == typed.argument; });
+    if (whole || rows.empty()) return {{typed.action, typed.argument, {}}};
+    return rows;
+  }
+  const std::string wanted = lowered(trimmed(text));
+  std::vector<FoundAction> rows = actionsWith(wanted);
+  return rows.empty() ? actionsWith(inWordsOfHere(wanted)) : rows;
 }
 
 }  // namespace unshot

@@ -47,7 +47,7 @@ std::string checkFactor(const std::string& text) {
 
 std::string checkReflectanceOfAll(const std::string& text) {
   const std::optional<double> number = parseNumber(text);
-  return number && *number >= 0.5 && *number <= 1.2 ? "" : "'" + text + "' is no number from 0.5 to 1.2";
+  return number && *number >= 0.5 && *number <= 2 ? "" : "'" + text + "' is no number from 0.5 to 2";
 }
 
 /// What lies beside the scene is hidden by a panel over it, which goes where it is asked for.
@@ -70,7 +70,10 @@ std::span<const Action> lectureActions() {
        "[on|off]",
        "Show or hide what the picked patch, or the one that shoots, sees through its hemicube",
        {GLFW_KEY_U, false, "U"},
-       [](Viewer& v, const std::string& a) { showBeside(v, v.teaching().choices.hemicube, a); },
+       [](Viewer& v, const std::string& a) {
+         showBeside(v, v.teaching().choices.hemicube, a);
+         if (lectureShowsHemicube(v)) v.passingNotice("the lecture's page Shots shows the hemicube");
+       },
        checkSwitch},
       {"hemicube-picture",
        "KEY",
@@ -151,7 +154,7 @@ std::span<const Action> lectureActions() {
        checkFactor},
       {"matrix-reflectance",
        "R",
-       "Or one reflectance for all groups, 0.5 to 1.2",
+       "Or one reflectance for all groups, 0.5 to 2",
        {},
        [](Viewer& v, const std::string& a) {
          v.teaching().choices.reflectance = *parseNumber(a);

@@ -51,6 +51,14 @@ std::span<const Action> windowActions() {
        {GLFW_KEY_X, false, "X"},
        [](Viewer& v, const std::string& a) { setSwitch(v.ui().clean, a); },
        checkSwitch},
+      {"full-screen",
+       "[on|off]",
+       "Fill the screen with the window, or give it back its place",
+       {GLFW_KEY_F11, false, "F11"},
+       [](Viewer& v, const std::string& a) {
+         v.fillScreen(a.empty() ? std::nullopt : std::optional(a == "on"));
+       },
+       checkSwitch},
       {"status",
        "[on|off]",
        "Show or hide the line at the bottom of the scene, which the panel takes with it",

@@ -142,9 +142,10 @@ std::string bounceText(const std::vector<glm::dvec3>& power, std::size_t k) {
            " W over the three channels";
   const double emitted = sum(power[0]);
   const std::string n = std::to_string(k);
-  return "Bounce " + n + ", B_" + n + (k == 1 ? " = M E: " : " = M^" + n + " E: ") + "\u2211 A B_" + n +
-         " is " + percentText(emitted > 0 ? sum(power[k]) / emitted : 0) + " of the light emitted, " +
-         figureText(bounceRatio(power, k)) + " times " + (k == 1 ? "E" : "bounce " + std::to_string(k - 1));
+  return "Bounce " + n + ", B_" + n + (k == 1 ? " = M E: " : " = M" + superscript(k) + " E: ") +
+         "\u2211 A B_" + n + " is " + percentText(emitted > 0 ? sum(power[k]) / emitted : 0) +
+         " of the light emitted, " + figureText(bounceRatio(power, k)) + " times " +
+         (k == 1 ? "E" : "bounce " + std::to_string(k - 1));
 }
 
 void bouncesSection(Viewer& viewer) {

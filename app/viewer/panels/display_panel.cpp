@@ -101,6 +101,13 @@ void histogram(Viewer& viewer) {
             (shown->black > 0 ? "; black: " + percentText(shown->black) + " of the pixels" : ""));
 }
 
+/// Whether the light that is shown is chosen by what there is to choose.
+bool showsLight(const ViewOptions& view) {
+  const Quantity quantity = displayMode(view.display).quantity;
+  return quantity == Quantity::kRadiosity || quantity == Quantity::kIrradiance ||
+         quantity == Quantity::kDifference;
+}
+
 /// Which light, and what it is compared with.
 void lightChoices(Viewer& viewer) {
   const DisplaySettings& settings = viewer.settings();
@@ -121,13 +128,15 @@ void lightChoices(Viewer& viewer) {
         "Compared with direct light alone. Ctrl+O: chooses a solution that unshot solve wrote (PLY). Or drop "
         "one on the window");
   }
+  ImGui::BeginDisabled(!showsLight(settings.view));
   bool on = settings.view.light.indirect;
   if (ImGui::Checkbox("Radiosity", &on)) viewer.perform("radiosity", on ? "on" : "off");
   tooltip(
       "B: with all light that goes back and forth between surfaces, or without: only what comes straight "
       "from lamps");
+  ImGui::EndDisabled();
   ImGui::SameLine(9.0f * ImGui::GetFontSize());
-  ImGui::BeginDisabled(!settings.view.light.all());
+  ImGui::BeginDisabled(!settings.view.light.all() || !showsLight(settings.view));
   on = settings.view.ambient;
   if (ImGui::Checkbox("Ambient term", &on)) viewer.perform("ambient", on ? "on" : "off");
   tooltip(
@@ -152,6 +161,7 @@ void brightness(Viewer& viewer) {
   ImGui::EndDisabled();
   if (!curve.empty()) viewer.perform("tone", curve);
   label("Exposure", "Stops (factors of two) brighter than the automatic exposure; + and \u2212");
+  ImGui::BeginDisabled(!mode.exposed);
   float ev = static_cast<float>(settings.view.exposure_ev);
   if (ImGui::SliderFloat("##exposure", &ev, -6, 6, "%+.1f EV")) {
     char text[32];
@@ -161,6 +171,7 @@ void brightness(Viewer& viewer) {
   bool on = settings.exposure_locked;
   if (ImGui::Checkbox("Keep this exposure", &on)) viewer.perform("lock-exposure", on ? "on" : "off");
   tooltip("L: otherwise it follows what is in view");
+  ImGui::EndDisabled();
 }
 
 }  // namespace

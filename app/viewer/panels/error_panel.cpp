@@ -71,8 +71,11 @@ std::string knownError(const LaneState& state) {
   if (state.estimates.total.places > 0) return "error " + aboutText(state.estimates.total);
   const double bound = state.measures.solverBound();
   if (bound >= kMostShown) return {};
-  if (state.estimates.both.places == 0) return "error below " + percentText(bound);
-  return "error " + aboutText(state.estimates.both, bound);
+  const ErrorEstimate& other = state.estimates.both;
+  if (other.places == 0) return "error below " + percentText(bound);
+  // A bound that is most of it says how bad it may be, not how it is.
+  return "error " +
+         (bound > other.high ? "below " + percentText(bound + other.high) : aboutText(other, bound));
 }
 
 std::string errorInFront(const LaneState& state) {

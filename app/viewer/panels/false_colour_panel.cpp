@@ -29,13 +29,17 @@ ImU32 colourOf(const glm::vec3& c) {
   return ImGui::GetColorU32(ImVec4(encoded(c.x), encoded(c.y), encoded(c.z), 1));
 }
 
-const char* unitText(const FalseColour& how) { return how.lumens_per_watt > 0 ? "lux" : "W/m\u00b2"; }
+/// Lux is what arrives; what leaves has no unit of its own.
+const char* unitText(const FalseColour& how, Quantity quantity) {
+  if (!(how.lumens_per_watt > 0)) return "W/m\u00b2";
+  return quantity == Quantity::kIrradiance ? "lux" : "lm/m\u00b2";
+}
 
 bool isLegendShown(const ViewOptions& view) { return displayMode(view.display).false_colour; }
 
 /// What stands above the scale, with its unit.
 std::string titleOf(const Viewer& viewer, const DisplayMode& mode, const FalseColour& how) {
-  const std::string unit = std::string(" [") + unitText(how) + "]";
+  const std::string unit = std::string(" [") + unitText(how, mode.quantity) + "]";
   switch (mode.quantity) {
     case Quantity::kFormFactors:
       return "Form factors, G_ij / A_j [1/m\u00b2]";
@@ -69,15 +73,24 @@ const char* missingText(const Viewer& viewer, Quantity quantity) {
   return "";
 }
 
+/// "5e-9" of "5e-09".
+std::string shortExponent(std::string text) {
+  const std::size_t at = text.find("e-0");
+  return at == std::string::npos ? text : text.erase(at + 2, 1);
+}
+
 struct LegendTick {
   double place;  ///< 0 left, 1 right
   std::string text;
+  bool decade =
+      false;  ///< a power of ten on a logarithmic scale, which comes first where there is little room
 };
 
 std::vector<LegendTick> ticksOf(const DisplayMode& mode, const FalseColour& how, double top) {
   const double unit = how.lumens_per_watt > 0 ? how.lumens_per_watt : 1;
   const auto textOf = [&](double value) {
-    return mode.quantity == Quantity::kDifference ? percentText(value) : figureText(unit * value);
+    return mode.quantity == Quantity::kDifference ? percentText(value)
+                                                  : shortExponent(figureText(unit * value));
   };
   std::vector<LegendTick> out;
   const std::vector<double> values = isolines(top, how);
@@ -87,8 +100,9 @@ std::vector<LegendTick> ticksOf(const DisplayMode& mode, const FalseColour& how,
   }
   if (mode.diverging || !how.logarithmic) out.push_back({mode.diverging ? 0.5 : 0, textOf(0)});
   for (const double value : values) {
-    const double place = falseColourPlace(value, top, how.logarithmic);
-    out.push_back({mode.diverging ? (1 + place) / 2 : place, textOf(value)});
+    const double place = falseColourPlace(value, top, how.logarithmic), digits = std::log10(unit * value);
+    out.push_back({mode.diverging ? (1 + place) / 2 : place, textOf(value),
+                   how.logarithmic && !mode.diverging && std::abs(digits - std::round(digits)) < 1e-6});
   }
   return out;
 }
@@ -107,14 +121,20 @@ void drawTicks(const std::vector<LegendTick>& ticks, bool diverging, const ImVec
     const bool over = std::any_of(taken.begin(), taken.end(), [&](const auto& other) {
       return x - half < other.second + gap && x + half > other.first - gap;
     });
-    const float end = at.x + width + ImGui::GetFontSize();
-    if (over || x - half < at.x - ImGui::GetFontSize() || x + half > end) return;
-    list.AddText({x - half, at.y + 1.4f * height}, colour, tick.text.c_str());
-    taken.emplace_back(x - half, x + half);
+    if (over) return;
+    // Those at the ends stay within the room that there is.
+    const float room = ImGui::GetFontSize();
+    const float left =
+        std::clamp(x - half, at.x - room, std::max(at.x + width + room - 2 * half, at.x - room));
+    list.AddText({left, at.y + 1.4f * height}, colour, tick.text.c_str());
+    taken.emplace_back(left, left + 2 * half);
   };
+  for (const LegendTick& tick : ticks) {
+    if (tick.decade) draw(tick);
+  }
   const std::size_t middle = diverging ? ticks.size() / 2 : 0;
   for (std::size_t k = middle; k < ticks.size(); ++k) {
-    draw(ticks[k]);
+    if (!ticks[k].decade) draw(ticks[k]);
     if (k > middle && 2 * middle >= k) draw(ticks[2 * middle - k]);
   }
 }
@@ -144,7 +164,8 @@ void chooseUnit(Viewer& viewer) {
   const std::string shown =
       efficacy > 0 ? "lux, " + figureText(efficacy) + " lm/W" : std::string(kUnits[0].text);
   label("Scale",
-        "Unit of the legend. Lux: luminance of the three channels times a luminous efficacy, 683 lm/W of "
+        "Unit of the legend. Lux, and lm/m\u00b2 of what leaves surfaces: luminance of the three channels "
+        "times a luminous efficacy, 683 lm/W of "
         "green light, or 179 lm/W, what Radiance takes for white. The exposure says where the scale ends");
   if (ImGui::BeginCombo("##unit", shown.c_str())) {
     for (const Unit& unit : kUnits) {

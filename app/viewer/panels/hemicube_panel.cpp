@@ -134,12 +134,19 @@ void buildHemicube(Viewer& viewer, LowerEdge& edge) {
   const float bottom = edge.above(0, widest);
   const float room = std::min(edge.sceneWidth() - 4 * em, bottom - edge.top() - gap - kLines * em);
   const float side = std::floor(std::min({kSide * em, room, kMostOfScene * bottom}));
-  if (side < kLeast * em) return;
+  const bool fits = side >= kLeast * em;
+  if (!fits && bottom - 2 * gap - em - 2 * ImGui::GetStyle().WindowPadding.y < edge.top()) return;
   ImGui::SetNextWindowPos({gap, bottom - gap}, ImGuiCond_Always, {0, 1});
   ImGui::SetNextWindowBgAlpha(0.94f);
   ImGui::Begin("hemicube", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
+  if (!fits) {
+    ImGui::TextDisabled("no room for the hemicube (U)");
+    edge.take(0, ImGui::GetWindowWidth() + 2 * gap, bottom - gap - ImGui::GetWindowHeight());
+    ImGui::End();
+    return;
+  }
   ImGui::BeginGroup();
   ImGui::TextDisabled("Hemicube");
   tooltip(

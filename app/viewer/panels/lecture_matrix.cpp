@@ -55,7 +55,7 @@ std::string groupText(const GatheredMatrix& m, const Mesh& mesh, std::size_t k) 
 
 std::string powerText(std::size_t k) {
   if (k == 0) return "I";
-  return k == 1 ? "M" : k == 2 ? "M\u00b2" : k == 3 ? "M\u00b3" : "M^" + std::to_string(k);
+  return k == 1 ? "M" : "M" + superscript(k);
 }
 
 /// What a cell's number is called.
@@ -208,9 +208,9 @@ void chooseReflectance(Viewer& viewer) {
   ImGui::SetNextItemWidth(-1);
   if (choices.alike) {
     float r = static_cast<float>(choices.reflectance);
-    if (ImGui::SliderFloat("##reflectance", &r, 0.5f, 1.2f, "every R = %.2f", ImGuiSliderFlags_AlwaysClamp))
+    if (ImGui::SliderFloat("##reflectance", &r, 0.5f, 2, "every R = %.2f", ImGuiSliderFlags_AlwaysClamp))
       viewer.perform("matrix-reflectance", twoDigits(static_cast<double>(r)));
-    tooltip("R of every group in M = R G, 0.5 to 1.2: above 1 the terms of the series may grow");
+    tooltip("R of every group in M = R G, 0.5 to 2: above 1 the terms of the series may grow");
   } else {
     float factor = static_cast<float>(choices.factor);
     if (ImGui::SliderFloat("##factor", &factor, 0.5f, 10, "own R \u00d7 %.2f",
@@ -259,6 +259,13 @@ void terms(Viewer& viewer) {
   }
   list.AddRectFilled({at.x, at.y + height}, {at.x + width, at.y + height + 1},
                      ImGui::GetColorU32(ImGuiCol_Text, 0.35f));
+  // The upper lines, a tenth apart, with what they stand for.
+  for (double decade = std::floor(top); decade > std::floor(top) - 2; --decade) {
+    const std::string text = channelText(std::pow(10.0, decade));
+    const float y = at.y + height * static_cast<float>((top - decade) / decades);
+    list.AddText({at.x + width - ImGui::CalcTextSize(text.c_str()).x - 2, y},
+                 ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+  }
   if (!ImGui::IsItemHovered()) return;
   const float place = (ImGui::GetMousePos().x - at.x) / slot;
   const auto k = std::min(kTermsShown, static_cast<std::size_t>(std::max(0.0f, place)));
@@ -287,6 +294,10 @@ void radiusLine(Viewer& viewer) {
   wrapped("Spectral radius of M: " + figureText(series.radius()) + std::string(termsText(series.terms())));
   if (endless) ImGui::PopStyleColor();
   tooltip("The largest |\u03bb| of M v = \u03bb v: M^k tends to 0 where it is below 1");
+  const TeachingChoices& choices = viewer.teaching().choices;
+  if (!choices.allow_divergence || !(series.radius() > 0)) return;
+  const double limit = (choices.alike ? choices.reflectance : choices.factor) / series.radius();
+  dimmed((choices.alike ? "It is 1 with every R = " : "It is 1 with own R \u00d7 ") + figureText(limit));
 }
 
 /// How near the partial sum is to what the solve has.
@@ -314,11 +325,12 @@ void lightLine(Viewer& viewer) {
 void memoryLine(Viewer& viewer) {
   const SessionState& state = viewer.state();
   const auto n = static_cast<double>(state.facts->elements);
-  wrapped("In full M has " + countText(state.facts->elements) + "\u00b2 entries, " +
+  wrapped("M of all " + countText(state.facts->elements) + " elements would take " +
           memoryText(kBytesOfEntry * n * n) +
-          "; kept of K: " + memoryText(static_cast<double>(state.kept_bytes)));
+          "; form factors kept: " + memoryText(static_cast<double>(state.kept_bytes)));
   tooltip(
-      "Elements squared, 8 bytes each: each element on its own. The solver keeps columns of K for patches of "
+      "Elements squared, 8 bytes each: each element on its own. The solver keeps columns of form factors for "
+      "patches of "
       "several elements, those that it has shot along, 4 bytes an element and only where light arrives; M "
       "itself is never made");
 }
@@ -401,7 +413,7 @@ void matrixPage(Viewer& viewer) {
   map(viewer, "##other", other, name, side);
   const auto& groups = teaching.insight()->matrix->groups;
   if (std::any_of(groups.begin(), groups.end(), [](const auto& group) { return !group.sends; }))
-    dimmed("Grey columns are not computed: no light leaves there.");
+    dimmed("Black: 0. Grey columns are not computed: no light leaves there.");
   if (const std::optional<MatrixCell> cell = chosenCell(teaching)) {
     wrapped(cellText(viewer, other, name, *cell));
     markGroups(teaching, *cell);

@@ -31,7 +31,7 @@ bool beginChannelsAndUnits(const char* id) {
     ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("W/(m\u00b2 sr)").x);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  for (const char* name : {"R", "G", "B"}) {
+  for (const char* name : {"red", "green", "blue"}) {
     ImGui::TableNextColumn();
     rightAligned(name, true);
   }
@@ -100,7 +100,7 @@ void sources(Viewer& viewer, const PatchInsight& p) {
       {{"G_ij",
         "Form factor: the part of i's view that patch j fills, 0 to 1. Also the part of i's light that "
         "arrives at j"},
-       {"B_j (G)", "Radiosity of patch j, its green channel [W/m\u00b2]"},
+       {"B_j green", "Radiosity of patch j, its green channel [W/m\u00b2]"},
        {"share",
         "G_ij B_j over \u2211 G_ij B_j, summed over the channels: the part of the light received that comes "
         "from j [%]"}}};
@@ -148,7 +148,10 @@ void shotText(Viewer& viewer) {
   const SessionState& state = viewer.state();
   const ShotInsight* shot = insight ? insight->shot.get() : nullptr;
   if (!shot) {
-    dimmed(state.phase == SessionPhase::kConverged
+    dimmed(viewer.stepsFromNothing() ? "The solve has converged: Step begins again from nothing and shoots "
+                                       "once, each further one once "
+                                       "more; what that was is told here."
+           : state.phase == SessionPhase::kConverged
                ? "The solve has converged: Again shoots anew from nothing, and Step then once at a time."
                : "Step shoots once: the patch with the most unshot power sends it all, and what that was is "
                  "told here.");
@@ -230,9 +233,12 @@ void equationPage(Viewer& viewer) {
 }
 
 void shotsPage(Viewer& viewer) {
-  ImGui::BeginDisabled(!viewer.solveGoesOn());
+  ImGui::BeginDisabled(!viewer.solveGoesOn() && !viewer.stepsFromNothing());
   if (ImGui::Button("Step")) viewer.perform("step");
-  tooltip("N: the patch chosen next shoots, then the solve pauses");
+  tooltip(viewer.stepsFromNothing() ? "N: begins again from nothing shot, and pauses after the first shot"
+                                    : "N: the patch chosen next shoots, then the solve pauses");
+  ImGui::EndDisabled();
+  ImGui::BeginDisabled(!viewer.solveGoesOn());
   const bool paused = viewer.state().phase == SessionPhase::kPaused;
   if (buttonBeside(paused ? "Resume" : "Pause")) viewer.perform("pause");
   tooltip("Space");

@@ -197,7 +197,7 @@ void buildOverlays(Viewer& viewer, const LowerEdge& edge, bool covered, bool not
   buildPrompt(viewer, middle, top);
   if (viewer.sceneChanged() && !viewer.error() && !prompt && state.phase != SessionPhase::kLoading)
     changedWindow(viewer, middle, edge.top());
-  if (!notices) return;
+  if (!notices || viewer.ui().clean) return;
   std::vector<std::string> lines = viewer.messages().lines();
   if (lines.empty() && viewer.ui().hint) lines.push_back(kHint);
   if (!lines.empty()) noticeWindow(viewer, lines, edge);

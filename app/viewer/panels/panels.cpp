@@ -11,7 +11,7 @@
 namespace unshot {
 namespace {
 
-constexpr double kPanelWidth = 304, kLeastWindow = 900;  // at scale 1 [px]
+constexpr double kPanelWidth = 320, kLeastWindow = 900;  // at scale 1 [px]
 
 void head(Viewer& viewer) {
   const SessionState& state = viewer.state();
@@ -36,9 +36,13 @@ void head(Viewer& viewer) {
   ImGui::BeginDisabled(!viewer.solveGoesOn());
   if (ImGui::Button(paused ? "Resume" : "Pause", {width, 0})) viewer.perform("pause");
   tooltip(paused ? "Space: the solve goes on" : "Space: the solve rests until Resume or Step");
+  ImGui::EndDisabled();
   ImGui::SameLine();
+  ImGui::BeginDisabled(!viewer.solveGoesOn() && !viewer.stepsFromNothing());
   if (ImGui::Button("Step", {width, 0})) viewer.perform("step", ImGui::GetIO().KeyShift ? "10" : "");
-  tooltip("N: the patch chosen next shoots, then the solve pauses. With Shift: ten times");
+  tooltip(viewer.stepsFromNothing()
+              ? "N: begins again from nothing shot, and pauses after the first shot. With Shift: after ten"
+              : "N: the patch chosen next shoots, then the solve pauses. With Shift: ten times");
   ImGui::EndDisabled();
   ImGui::SameLine();
   ImGui::BeginDisabled(!state.facts);

@@ -29,10 +29,12 @@ bool beginChannels(const char* id) {
   return true;
 }
 
-void channelNames() {
+/// `unit`: of what has none in its name.
+void channelNames(const char* unit) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  for (const char* name : {"R", "G", "B"}) {
+  ImGui::TextDisabled("%s", unit);
+  for (const char* name : {"red", "green", "blue"}) {
     ImGui::TableNextColumn();
     rightAligned(name, true);
   }
@@ -52,7 +54,7 @@ void channels(std::string_view title, const std::optional<glm::dvec3>& value, st
 
 void values(const PickedPoint& point, const Snapshot& snapshot) {
   if (beginChannels("picked")) {
-    channelNames();
+    channelNames("in W/m\u00b2");
     for (const PickedQuantity& quantity : pickedQuantities()) {
       if (quantity.one_channel) continue;
       const auto value = quantity.of(point, snapshot);
@@ -122,6 +124,21 @@ void buttons(Viewer& viewer) {
   }
 }
 
+/// What the picked surface is made of, to be changed.
+void materialButtons(Viewer& viewer, const Material& material) {
+  const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+  const bool on = material.emits();
+  if (ImGui::Button(on ? "Switch it off" : "Make it a light", {width, 0}))
+    viewer.perform("light", material.name + (on ? " off" : " on"));
+  tooltip(
+      on ? "All surfaces of this material emit nothing. The solution follows; Ctrl+Z takes it back"
+         : "All surfaces of this material emit, as they did before or white. The solution follows; Ctrl+Z "
+           "takes it back");
+  ImGui::SameLine();
+  if (ImGui::Button("Change material", {width, 0})) viewer.perform("section", "materials on");
+  tooltip("Opens the section Materials, with reflectance and emission of this one");
+}
+
 /// The row of a probe's name; false where it was given up.
 bool probeHead(Viewer& viewer, std::size_t k) {
   const PinnedProbe& pinned = viewer.picking().pinned()[k];
@@ -185,12 +202,13 @@ void pickedSection(Viewer& viewer) {
        "corners of its polygons run counter-clockwise");
   line("In the file", "line " + std::to_string((*viewer.state().facts->surface_lines)[point.pick.surface]),
        "Line number, counted from 1, where the scene's file has one of the surface's polygons");
-  line("Position", positionText(point.probe.position),
+  line("Position", positionText(point.probe.position) + " m",
        "x, y and z in the coordinates of the scene's file [m]");
   cells(point, *snapshot.mesh);
   values(point, snapshot);
   decisions(point);
   buttons(viewer);
+  materialButtons(viewer, snapshot.mesh->materials[surface.material]);
   ImGui::Spacing();
 }
 
@@ -203,6 +221,7 @@ void probesSection(Viewer& viewer) {
   for (std::size_t k = 0; k < viewer.picking().pinned().size(); ++k) {
     ImGui::PushID(static_cast<int>(k));
     if (probeHead(viewer, k) && beginChannels("values")) {
+      channelNames("in W/m\u00b2");
       const std::optional<ProbePlace>& place = viewer.picking().pinned()[k].place;
       channels("Radiosity B", radiosityAt(place, snapshot),
                "B = E + \u03c1 H [W/m\u00b2], red, green and blue; what Save CSV writes");

@@ -173,6 +173,7 @@ void actionsPrompt(Viewer& viewer, float height) {
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (actionRow(prompt, k, found[k])) wanted = k;
   }
+  if (found.empty()) ImGui::TextDisabled("nothing; H lists keys and mouse");
   ImGui::EndChild();
   const FoundAction* chosen = found.empty() ? nullptr : &found[prompt.chosen];
   if (prompt.wrong.empty() && typed.action && !typed.argument.empty() && chosen->title.empty())

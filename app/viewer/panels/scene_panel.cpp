@@ -13,11 +13,14 @@ namespace {
 
 constexpr std::size_t kRecent = 10;
 
-void sceneRow(Viewer& viewer, const std::filesystem::path& scene) {
+/// `folder`: with its folder's name, where others are called like it.
+void sceneRow(Viewer& viewer, const std::filesystem::path& scene, bool folder) {
   const SessionState& state = viewer.state();
   const bool present = state.facts && state.facts->scene_path == scene;
   ImGui::PushID(scene.c_str());
-  if (ImGui::Selectable(scene.stem().string().c_str(), present)) viewer.perform("open", scene.string());
+  const std::string name =
+      scene.stem().string() + (folder ? " in " + scene.parent_path().filename().string() : std::string());
+  if (ImGui::Selectable(name.c_str(), present)) viewer.perform("open", scene.string());
   tooltip(scene.string());
   ImGui::PopID();
 }
@@ -33,9 +36,14 @@ void sceneRows(Viewer& viewer) {
     });
     recent.resize(std::min(recent.size(), kRecent));
   }
-  for (const std::filesystem::path& scene : bundled) sceneRow(viewer, scene);
+  const auto called = [](const auto& scenes, const std::filesystem::path& scene) {
+    return std::count_if(scenes.begin(), scenes.end(),
+                         [&](const std::filesystem::path& other) { return other.stem() == scene.stem(); });
+  };
+  for (const std::filesystem::path& scene : bundled) sceneRow(viewer, scene, false);
   if (!recent.empty()) ImGui::Separator();
-  for (const std::filesystem::path& scene : recent) sceneRow(viewer, scene);
+  for (const std::filesystem::path& scene : recent)
+    sceneRow(viewer, scene, called(bundled, scene) + called(recent, scene) > 1);
   ImGui::Separator();
   if (ImGui::Selectable("Browse \u2026")) viewer.perform("browse");
   tooltip(
@@ -90,7 +98,9 @@ void sceneSection(Viewer& viewer) {
   line("Triangles", countText(state.facts->triangles),
        "Number of triangles of the file's faces; those without area are left out");
   line("Materials", countText(mesh.materials.size()), "Number of materials in the MTL files");
-  line("Extent", extentText(mesh.bounds_max - mesh.bounds_min) + " m",
+  const glm::dvec3 extent = mesh.bounds_max - mesh.bounds_min;
+  line("Extent",
+       figureText(extent.x) + " \u00d7 " + figureText(extent.y) + " \u00d7 " + figureText(extent.z) + " m",
        "Along x, y and z [m]; OBJ files are in metres");
   chooseSky(viewer);
   chooseEmission(viewer);

@@ -42,7 +42,7 @@ struct Part {
 std::string frameText(double milliseconds) {
   if (milliseconds < 0.05) return {};
   char text[32];
-  std::snprintf(text, sizeof text, milliseconds < 99.95 ? "%.1f ms" : "%.0f ms", milliseconds);
+  std::snprintf(text, sizeof text, milliseconds < 9.95 ? "frame %.1f ms" : "frame %.0f ms", milliseconds);
   return text;
 }
 
@@ -66,13 +66,13 @@ std::array<Part, 6> partsOf(const Viewer& viewer) {
        "Light that is emitted or reflected but not yet shot: \u2211 A |U| / \u2211 A E over patches and "
        "channels [%]"},
       {solving ? knownError(state) : nothing, "error about 0.0012 %",
-       "How wrong the reflected light still is, RMS of B \u2212 B* over RMS of B* \u2212 E [%]; \"below\" is "
-       "a proven bound of "
-       "the solver's error, \"about\" an estimate of all of it, \"up to\" the upper end of one that noise "
-       "hides"},
+       "How wrong the reflected light still is, RMS of B \u2212 B* over RMS of B* \u2212 E [%]; \"below\": "
+       "mostly a proven bound of the solver's error; \"about\": an estimate of all of it, \"up to\" the "
+       "upper end of "
+       "one that noise hides"},
       {running ? countText(rows) + " rows/s" : nothing, "00,000 rows/s",
        "Columns and rows of the form factors K computed a second, those kept from before not counted [1/s]"},
-      {frameText(viewer.frameMilliseconds()), "000.0 ms",
+      {frameText(viewer.frameMilliseconds()), "frame 000 ms",
        "Time to draw the scene and the panels once [ms]; a slow renderer does it over several frames"},
       {solving ? modeText(state) : nothing, "Progressive refinement",
        "Iteration mode: how it is chosen what is shot next"},

@@ -1,6 +1,7 @@
 #include "viewer/panels/widgets.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -47,6 +48,14 @@ void line(const char* name, const std::string& value, std::string_view tip) {
   ImGui::SetCursorPosX(std::max(start, ImGui::GetCursorStartPos().x));
   ImGui::TextUnformatted(value.c_str());
   tooltip(tip);
+}
+
+std::string superscript(std::size_t number) {
+  static constexpr std::array<const char*, 10> kDigits = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
+                                                          "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+  std::string out;
+  for (const char digit : std::to_string(number)) out += kDigits[static_cast<std::size_t>(digit - '0')];
+  return out;
 }
 
 std::string channelText(double value) {

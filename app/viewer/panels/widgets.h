@@ -21,6 +21,9 @@ void label(const char* text, std::string_view tip = {});
 /// A disc in the line's left end; text follows it.
 void dot(const ImVec4& colour);
 
+/// A whole number as an exponent: "\u00b9\u2070".
+std::string superscript(std::size_t number);
+
 /// Text on the left and text at the right border, below it where both do not fit.
 void line(const char* name, const std::string& value, std::string_view tip = {});
 

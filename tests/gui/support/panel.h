@@ -10,7 +10,7 @@
 
 namespace unshot::testing_support {
 
-inline constexpr int kPanel = 304;  ///< its width at scale 1, as app/viewer/panels/panels.cpp has it [px]
+inline constexpr int kPanel = 320;  ///< its width at scale 1, as app/viewer/panels/panels.cpp has it [px]
 
 /// What is written as "a/b": b, with a pushed as an identity before it.
 inline ImGuiID idOf(const std::string& path, ImGuiID within) {

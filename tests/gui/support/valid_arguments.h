@@ -18,6 +18,7 @@ inline const std::map<std::string_view, std::string>& validArguments() {
       {"browse", scenes},
       {"actions", "bounces 2"},
       {"clean", "on"},
+      {"full-screen", "off"},
       {"watch", "on"},
       {"mode", "jacobi"},
       {"race", "southwell"},
