@@ -240,8 +240,8 @@ bool Viewer::draw(GLuint framebuffer, int width, int height) {
   // Where there is little room a list or the help would lie over legends.
   const bool crowded =
       (ui_.prompt.open() || ui_.help) && static_cast<float>(height) < kRoomy * ImGui::GetFontSize();
+  if ((!ui_.clean || ui_.clean_legend) && !covered && !crowded) buildFalseColourLegend(*this, edge);
   if (!ui_.clean && !covered && !crowded) {
-    buildFalseColourLegend(*this, edge);
     buildReferencePicture(*this, bottom, edge);
     buildLegend(*state_, ui_.settings.view, edge);
     buildLectureMarks(*this, scene_width_);

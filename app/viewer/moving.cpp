@@ -54,6 +54,7 @@ void Viewer::navigate(double seconds) {
   navigator_.fly(direction, io.KeyShift);
   navigator_.advance(seconds);
   pickClicked();
+  lookUnderMouse();
   // By actions, too.
   if (const Camera before = std::exchange(seen_camera_, navigator_.camera()); before != seen_camera_)
     noteMotion();

@@ -52,6 +52,21 @@ void Viewer::pickAt(const Camera& camera, int width, const glm::dvec2& at) {
   input();
 }
 
+void Viewer::lookUnderMouse() {
+  const ImGuiIO& io = ImGui::GetIO();
+  const ViewOptions& view = ui_.settings.view;
+  const DisplayMode& mode = displayMode(view.display);
+  const bool busy = io.WantCaptureMouse || ImGui::IsAnyMouseDown() || !ImGui::IsMousePosValid();
+  const bool looks = mode.false_colour && ValueProbe::reads(mode.quantity) && view.light.all() && !busy &&
+                     sceneStands() && !state_->rival && shownSnapshot();
+  const auto place = looks ? placeUnder({io.MousePos.x, io.MousePos.y}) : std::nullopt;
+  if (!place) return value_probe_.rest();
+  const Mesh& mesh = *shownSnapshot()->mesh;
+  const Sight sight = sightAt(markedCamera(), static_cast<double>(place->width) / scene_height_,
+                              {mesh.bounds_min, mesh.bounds_max}, place->at);
+  value_probe_.look({shownSnapshot(), mode.quantity, view.ambient, sight.from, sight.along});
+}
+
 Camera Viewer::markedCamera() const {
   // A GPU draws the scene in the frame that the marks are for.
   return renderer().hardware ? scene_.cameraOf(wanted()) : scene_.shownCamera();

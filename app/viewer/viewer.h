@@ -39,6 +39,7 @@
 #include "viewer/screenshots.h"
 #include "viewer/script.h"
 #include "viewer/tasks.h"
+#include "viewer/value_probe.h"
 
 namespace unshot {
 
@@ -80,9 +81,10 @@ struct ViewerState {
   SolveOptions options;  ///< of the present or the next solve
   DisplaySettings settings;
   bool panel = true;
-  bool panel_over = false;  ///< over the scene, where it has no room beside it
-  bool status = true;       ///< with the panel: the line at the bottom of the scene
-  bool clean = false;       ///< nothing but the scene, whatever else is on
+  bool panel_over = false;    ///< over the scene, where it has no room beside it
+  bool status = true;         ///< with the panel: the line at the bottom of the scene
+  bool clean = false;         ///< nothing but the scene, whatever else is on
+  bool clean_legend = false;  ///< and then the legend of false colours
   bool help = false;
   bool notes = false;      ///< those on the scene, in full
   bool left_out = false;   ///< what the solve leaves out, in full
@@ -167,6 +169,8 @@ class Viewer {
   /// Of the scene as it is shown, which a slow renderer draws over several frames.
   const Camera& shownCamera() const { return scene_.shownCamera(); }
   const std::shared_ptr<const Snapshot>& shownSnapshot() const { return scene_.snapshot(); }
+  /// Of what is shown in false colours, where the mouse is over the scene.
+  const std::optional<double>& valueUnderMouse() const { return value_probe_.value(); }
   bool drawingScene() const { return scene_.drawing(); }
   /// With fewer pixels than its part of the window, as while the camera moves.
   bool coarseScene() const { return scene_.coarse(); }
@@ -346,6 +350,7 @@ class Viewer {
   const Mesh& requiredMesh() const;
   std::optional<PicturePlace> placeUnder(const glm::dvec2& mouse) const;
   void pickClicked();
+  void lookUnderMouse();
   void pickAt(const Camera& camera, int width, const glm::dvec2& at);
   bool mayBeSharpened(double now) const;
   double nextPaint() const;
@@ -453,6 +458,7 @@ class Viewer {
   bool coarse_rehearsed_ = false;
 
   Picking picking_;
+  ValueProbe value_probe_;
   std::optional<glm::dvec2> pick_wanted_;
   /// What the wheel goes to, as long as only the wheel moves.
   struct ZoomTarget {

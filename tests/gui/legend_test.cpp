@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <imgui_internal.h>
 
+#include "base/colour.h"
+#include "base/text.h"
 #include "gui/support/gui_layout.h"
+#include "gui/support/panel.h"
 #include "support/live_viewer.h"
 
 namespace unshot {
@@ -11,6 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
+using testing_support::kPanel;
 using testing_support::Letters;
 using testing_support::LiveViewer;
 
@@ -50,6 +54,36 @@ class Legend : public testing::Test {
 
   LiveViewer live_;
 };
+
+// In the unit of the scale, and the same as picking finds there.
+TEST_F(Legend, ReadsTheValueUnderTheMouse) {
+  EXPECT_THAT(of("false-radiosity"), HasSubstr("pointatthesceneforitsvalue"));
+  EXPECT_THAT(of("difference"), Not(HasSubstr("point"))) << "a difference has no value at a point";
+  const float width = static_cast<float>(live_.width()) - kPanel, height = static_cast<float>(live_.height());
+  act("ambient", "off");  // what is shown has it, what is picked has not
+  live_->pick({0.5, 0.9});
+  live_.draw();
+  const PickedPoint& picked = live_->picking().required();
+  struct Display {
+    const char* key;
+    std::optional<glm::dvec3> (*at)(const std::optional<ProbePlace>&, const Snapshot&);
+  };
+  for (const auto& [display, at] :
+       {Display{"false-radiosity", radiosityAt}, Display{"false-irradiance", irradianceAt}}) {
+    act("display", display);
+    act("unit", "watts");
+    ImGui::GetIO().MousePos = {0.5f * width, 0.9f * height};
+    const double value = luminance(*at(picked.place, *live_->state().snapshot));
+    EXPECT_THAT(of(display), HasSubstr("underthemouse:" + figureText(value))) << display;
+    act("unit", "683");
+    EXPECT_THAT(of(display), HasSubstr("underthemouse:" + figureText(683 * value))) << display;
+    ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
+  }
+  act("clean", "legend");
+  EXPECT_THAT(of("false-irradiance"), HasSubstr("Irradiance")) << "alone over the scene";
+  act("clean", "on");
+  EXPECT_EQ(of("false-irradiance"), "");
+}
 
 TEST_F(Legend, SaysQuantityAndUnit) {
   EXPECT_EQ(of("radiosity"), "");

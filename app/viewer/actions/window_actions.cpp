@@ -46,11 +46,17 @@ std::span<const Action> windowActions() {
        runPanel,
        checkSwitch},
       {"clean",
-       "[on|off]",
-       "Show the scene alone, or with all that was over it and beside it",
+       "[on|off|legend]",
+       "Show the scene alone (or with the legend of its colours), or with all that was over it and beside it",
        {GLFW_KEY_X, false, "X"},
-       [](Viewer& v, const std::string& a) { setSwitch(v.ui().clean, a); },
-       checkSwitch},
+       [](Viewer& v, const std::string& a) {
+         v.ui().clean_legend = a == "legend";
+         setSwitch(v.ui().clean, a == "legend" ? "on" : a);
+       },
+       [](const std::string& a) {
+         return a == "legend" || checkSwitch(a).empty() ? std::string()
+                                                        : "'" + a + "' is neither on, off nor legend";
+       }},
       {"full-screen",
        "[on|off]",
        "Fill the screen with the window, or give it back its place",

@@ -152,6 +152,26 @@ void drawBar(bool diverging, const ImVec2& at, float width, float height) {
   }
 }
 
+/// The value where the mouse is, as a number and as a mark on the bar.
+void underMouse(const Viewer& viewer, const FalseColour& how, const DisplayMode& mode, double top,
+                const ImVec2& at, float width, float height) {
+  const std::optional<double>& value = viewer.valueUnderMouse();
+  if (!value) {
+    ImGui::TextDisabled("point at the scene for its value");
+    return;
+  }
+  const double unit = how.lumens_per_watt > 0 ? how.lumens_per_watt : 1;
+  ImGui::TextUnformatted(("under the mouse: " + shortExponent(figureText(unit * *value))).c_str());
+  const double place = std::abs(*value) > 0 ? falseColourPlace(std::abs(*value), top, how.logarithmic) : 0;
+  const double along = mode.diverging ? (1 + (*value < 0 ? -place : place)) / 2 : place;
+  const float x = at.x + width * static_cast<float>(std::clamp(along, 0.0, 1.0)), half = 0.3f * height;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddTriangleFilled({x - half, at.y - half}, {x + half, at.y - half}, {x, at.y + half},
+                         ImGui::GetColorU32(ImGuiCol_Text));
+  list.AddTriangle({x - half, at.y - half}, {x + half, at.y - half}, {x, at.y + half},
+                   IM_COL32(0, 0, 0, 255));
+}
+
 void chooseUnit(Viewer& viewer) {
   const ViewOptions& view = viewer.ui().settings.view;
   struct Unit {
@@ -229,6 +249,7 @@ void buildFalseColourLegend(const Viewer& viewer, LowerEdge& edge) {
     drawBar(mode.diverging, at, width, height);
     drawTicks(ticksOf(mode, how, top), mode.diverging, at, width, height);
     ImGui::Dummy({width + 2 * em, 1.4f * height + em});
+    if (ValueProbe::reads(mode.quantity)) underMouse(viewer, how, mode, top, at, width, height);
   }
   edge.take(right - whole, right, bottom - gap - ImGui::GetWindowHeight());
   ImGui::End();
