@@ -184,6 +184,35 @@ TEST_F(Controls, ColourPickersOpenAndChangeTheirMaterial) {
   }
 }
 
+// Keys and clicks are for the list alone while one is open.
+TEST_F(Controls, AnOpenListHasTheKeyboardAndTheMouse) {
+  const ImGuiWindow* panel = childOf("panel", "sections");
+  ASSERT_TRUE(panel);
+  const auto items = itemsIn(*panel, {0.6f});
+  const auto show = items.find(idOf("##display", panel->ID));
+  ASSERT_TRUE(show != items.end());
+  const auto open = [&] { return ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup); };
+  click(show->second);
+  ASSERT_TRUE(open());
+  live_->key('M', false);
+  frames();
+  EXPECT_EQ(live_->settings().view.display, "radiosity");
+  EXPECT_TRUE(open());
+  live_->key(256, false);  // GLFW_KEY_ESCAPE
+  frames();
+  EXPECT_FALSE(open());
+  click(show->second);
+  ASSERT_TRUE(open());
+  click({300, 1000});
+  EXPECT_FALSE(open());
+  EXPECT_FALSE(live_->picking().picked()) << "the click was for the list";
+  click({300, 1000});
+  EXPECT_TRUE(live_->picking().picked());
+  live_->key('M', false);
+  frames();
+  EXPECT_NE(live_->settings().view.display, "radiosity");
+}
+
 TEST_F(Controls, WhatTheMouseRestsOnSaysWhatItIs) {
   act("materials", "on");
   act("pick", "0.45,0.6");
