@@ -50,6 +50,13 @@ void printPlans(bool quick, double seconds) {
     scenes.push_back(std::filesystem::path(UNSHOT_SOURCE_DIR "/assets") / (std::string(name) + ".obj"));
   const unshot::testing_support::TempFolder folder;
   scenes.insert(scenes.begin() + 2, unshot::testing_support::writeRoom(folder));
+  for (const char* name :
+       {"cornell_published/cornell_published.obj", "mcguire_cornell/CornellBox-Original.obj",
+        "mcguire_cornell/CornellBox-Sphere.obj", "teapot_box/teapot_box.obj"}) {
+    const char* others = std::getenv("UNSHOT_SCENES");
+    if (others && std::filesystem::exists(std::filesystem::path(others) / name))
+      scenes.push_back(std::filesystem::path(others) / name);
+  }
   if (quick) scenes.resize(1);
   unshot::bench::printPlanTable(scenes, quick ? seconds : 6 * seconds);
 }
