@@ -214,7 +214,7 @@ void Viewer::key(int key, bool ctrl) {
   endHint();
   // An open list has the keyboard, of which it takes Esc alone.
   if (ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup)) {
-    close_popups_ = key == GLFW_KEY_ESCAPE;
+    close_popups_ = close_popups_ || key == GLFW_KEY_ESCAPE;
     return input();
   }
   if (ui_.prompt.open()) return;  // what is typed before its line is there is for it too

@@ -6,6 +6,7 @@
 
 #include "base/clock.h"
 #include "gl/context.h"
+#include "session/saved_solve.h"
 
 namespace unshot {
 namespace {

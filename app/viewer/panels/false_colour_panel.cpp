@@ -82,8 +82,8 @@ std::string shortExponent(std::string text) {
 struct LegendTick {
   double place;  ///< 0 left, 1 right
   std::string text;
-  bool decade =
-      false;  ///< a power of ten on a logarithmic scale, which comes first where there is little room
+  /// A power of ten on a logarithmic scale, which comes first where there is little room.
+  bool decade = false;
 };
 
 std::vector<LegendTick> ticksOf(const DisplayMode& mode, const FalseColour& how, double top) {

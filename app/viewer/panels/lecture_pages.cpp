@@ -148,7 +148,7 @@ void shotText(Viewer& viewer) {
   const SessionState& state = viewer.state();
   const ShotInsight* shot = insight ? insight->shot.get() : nullptr;
   if (!shot) {
-    dimmed(viewer.stepsFromNothing() ? "The solve has converged: Step begins again from nothing and shoots "
+    dimmed(viewer.stepsFromNothing() ? "The solve has ended: Step begins again from nothing and shoots "
                                        "once, each further one once "
                                        "more; what that was is told here."
            : state.phase == SessionPhase::kConverged
