@@ -93,7 +93,9 @@ double Viewer::nextSceneWork() const {
   const double fine = coarse_ ? last_motion_ + kRestSeconds : kNever;
   if (hasNewSnapshot()) return std::min(nextSnapshot(), fine);
   if (coarse_) return fine;
-  return mayBeSharpened(kNever) ? std::max(soon, last_motion_ + kRestSeconds) : kNever;
+  // In software a picture is sharpened slice upon slice: nobody moves, and each lasts a few milliseconds.
+  const double next = renderer().hardware ? soon : last_scene_work_;
+  return mayBeSharpened(kNever) ? std::max(next, last_motion_ + kRestSeconds) : kNever;
 }
 
 double Viewer::nextSnapshot() const {
@@ -209,8 +211,9 @@ bool Viewer::drawScene(double now, double deadline) {
     return !scene_.drawing();
   }
   if (!mayBeSharpened(now)) return false;
+  const auto before = scene_.version();
   scene_.sharpen(renderer().hardware ? 3 : 2, deadline);
-  return true;
+  return scene_.version() != before;
 }
 
 bool Viewer::draw(GLuint framebuffer, int width, int height) {

@@ -35,6 +35,7 @@ class Controls : public testing::Test {
     options.solve.error = 0.1;
     options.width = 1020;
     options.height = 2000;  // all of the panel is in it: what is not cannot be clicked
+    options.pixels = false;
     return options;
   }
   void act(const std::string& action, const std::string& argument = {}) {

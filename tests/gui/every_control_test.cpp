@@ -9,7 +9,6 @@
 
 #include "base/clock.h"
 #include "export/image_files.h"
-#include "gl/functions.h"
 #include "gui/support/mouse.h"
 #include "support/temp_folder.h"
 #include "viewer/panels/sections.h"
@@ -25,10 +24,6 @@ class EveryControl : public testing::Test {
   EveryControl() : before_(std::filesystem::current_path()) {
     std::filesystem::current_path(folder_.path());  // for what is saved
     writePng("photograph.png", Image8{2, 1, {255, 128, 0, 0, 128, 255}});
-    // Nobody looks at the pixels of these frames, which would cost most.
-    auto& fn = const_cast<gl::Functions&>(live_.fn());
-    fn.DrawElementsBaseVertex = [](GLenum, GLsizei, GLenum, const void*, GLint) {};
-    fn.BlitFramebuffer = [](GLint, GLint, GLint, GLint, GLint, GLint, GLint, GLint, GLbitfield, GLenum) {};
   }
   ~EveryControl() override { std::filesystem::current_path(before_); }
 
@@ -40,6 +35,7 @@ class EveryControl : public testing::Test {
     options.solve.form_factors = "hemicube";
     options.width = 1020;
     options.height = 2700;  // all of the panel is in it
+    options.pixels = false;
     return options;
   }
   void act(const std::string& action, const std::string& argument = {}) {

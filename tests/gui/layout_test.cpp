@@ -286,6 +286,7 @@ class Layout : public testing::TestWithParam<WindowSize> {
     options.solve.elements = 300;
     options.width = 640;
     options.height = 360;
+    options.pixels = false;
     return options;
   }
   static ImGuiWindow* scrolled() {

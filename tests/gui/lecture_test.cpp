@@ -38,6 +38,7 @@ LiveViewer::Options boxToTeachWith(const std::string& script) {
   options.script = script;
   options.width = 1280;
   options.height = 800;
+  options.pixels = false;
   return options;
 }
 

@@ -41,6 +41,7 @@ LiveViewer::Options boxToPickFrom(const std::string& script = {}) {
   options.script = script;
   options.width = 700 + kPanel;
   options.height = 700;
+  options.pixels = false;
   return options;
 }
 

@@ -28,6 +28,7 @@ LiveViewer::Options boxWithAPlan(const std::string& script = {}) {
   options.script = script;
   options.width = 1020;
   options.height = 1900;  // all of the panel is in it: what is not cannot be clicked
+  options.pixels = false;
   return options;
 }
 

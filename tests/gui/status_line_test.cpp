@@ -22,6 +22,7 @@ LiveViewer::Options box(int width, int height) {
   options.solve.elements = 1000;
   options.width = width;
   options.height = height;
+  options.pixels = false;
   return options;
 }
 

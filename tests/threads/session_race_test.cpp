@@ -15,16 +15,19 @@ bool bothHaveSolvedFor(const SessionState& s, double seconds) {
   return s.rival && s.measures.seconds > seconds && s.rival->measures.seconds > seconds;
 }
 
-/// No step of the solve took longer, by its own clock [s]: an entry of its history is of one step or more.
+/// No step of the solve took longer, by its own clock [s], nor what comes before the first one, which the
+/// first entry of its history counts; another entry is of one step or more.
 double longestStep(const LaneState& lane) {
-  double longest = lane.measures.seconds - lane.history->back().measures.seconds;
-  for (std::size_t k = 1; k < lane.history->size(); ++k)
-    longest =
-        std::max(longest, (*lane.history)[k].measures.seconds - (*lane.history)[k - 1].measures.seconds);
+  const auto& history = *lane.history;
+  double longest =
+      std::max(history.front().measures.seconds, lane.measures.seconds - history.back().measures.seconds);
+  for (std::size_t k = 1; k < history.size(); ++k)
+    longest = std::max(longest, history[k].measures.seconds - history[k - 1].measures.seconds);
   return longest;
 }
 
-// Whoever is behind takes the next step, so neither is ever ahead by more than one step.
+// Whoever is behind takes the next step, so neither is ever ahead by more than one step, or by what the other
+// needed less to begin.
 TEST(SessionRace, IsFairByTheSecondsOfEach) {
   SessionWatch watch;
   watch->open(asset("cornell_box.obj"), endless());

@@ -180,18 +180,24 @@ class LayoutCheck {
 
   void lettersOf(const ImGuiWindow& window, std::set<std::string>& out) const {
     const std::vector<Letter> letters = letters_.of(*window.DrawList);
+    std::map<int, std::vector<std::size_t>> in_band;  // the letters that reach into each, in order
     for (std::size_t k = 0; k < letters.size(); ++k) {
       const Letter& a = letters[k];
       if (!visible(a)) continue;
       const bool cut =
           a.box.Max.x > std::min(a.clip.z, screen_.x) + 1 || a.box.Min.x < std::max(a.clip.x, 0.0f) - 1;
       if (cut || a.trimmed) out.insert(nameOf(window) + ": cut off: " + around(letters, k));
-      for (std::size_t i = 0; i + 1 < k; ++i) {
-        if (visible(letters[i]) && over(letters[i], a))
-          out.insert(nameOf(window) + ": " + around(letters, i) + " under " + around(letters, k));
+      for (int band = bandOf(a.box.Min.y); band <= bandOf(a.box.Max.y); ++band) {
+        for (const std::size_t i : in_band[band]) {
+          if (i + 1 < k && over(letters[i], a))
+            out.insert(nameOf(window) + ": " + around(letters, i) + " under " + around(letters, k));
+        }
+        in_band[band].push_back(k);
       }
     }
   }
+  /// Of the horizontal bands that a window is looked at in.
+  static int bandOf(float y) { return static_cast<int>(std::floor(y / 16)); }
   /// Whether it is seen, at least half of its height.
   static bool visible(const Letter& letter) {
     const float middle = letter.box.GetCenter().y;
