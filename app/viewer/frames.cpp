@@ -32,6 +32,8 @@ constexpr int kCoarseDivisor = 2;
 constexpr double kSliceSeconds = 0.004;
 // However many inputs come, a picture in the making has this long between two frames.
 constexpr double kSceneSeconds = 0.01;
+// And while the mouse moves the camera, what else changes waits to be painted with it, so long at most.
+constexpr double kPaintSeconds = 0.05;
 // A window that waits for something shows how far it is.
 constexpr double kProgressSeconds = 0.1;
 // The difference from a reference picture is found no more often than so, and not while the camera moves.
@@ -267,12 +269,29 @@ bool Viewer::draw(GLuint framebuffer, int width, int height) {
     return false;
   }
   const PaintedLook look{framebuffer, width, height, scene_.version(), fingerprint(*ImGui::GetDrawData())};
-  const bool changed = painted_ != look;
-  painted_ = look;
-  if (changed) paint(framebuffer, width, height);
+  const bool differs = painted_ != look;
+  const bool changed = differs && !waitsForPicture(now);
+  if (changed) {
+    painted_ = look;
+    painted_camera_ = scene_.shownCamera();
+    unpainted_since_.reset();
+    paint(framebuffer, width, height);
+  } else if (differs) {
+    if (!unpainted_since_) unpainted_since_ = now;
+    gui_frames_ = std::max(gui_frames_, 1);
+  }
   gl::checkErrors(setup_.display->functions(), "drawing a frame of the viewer");
   if (!changed) last_frame_end_ = wallSeconds();
   return changed;
+}
+
+/// Whether a frame of the same view is not worth its time: the camera has moved, with the mouse over the
+/// scene, and a renderer in software that paints the window draws the scene later by as much.
+bool Viewer::waitsForPicture(double now) const {
+  return !renderer().hardware && !ImGui::GetIO().WantCaptureMouse && sceneStands() && painted_ &&
+         painted_camera_ == scene_.shownCamera() && now < last_motion_ + kRestSeconds &&
+         now < unpainted_since_.value_or(now) + kPaintSeconds &&
+         (scene_.drawing() || scene_.outdated(wanted()));
 }
 
 void Viewer::damaged() {
@@ -322,11 +341,11 @@ void Viewer::measureReference(double now) {
 void Viewer::paint(GLuint framebuffer, int width, int height) {
   const gl::Functions& fn = setup_.display->functions();
   fn.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  if (!renderer().hardware && !std::exchange(copies_rehearsed_, true)) scene_.rehearseCopies();
   fn.Viewport(0, 0, width, height);
   const float background = static_cast<float>(srgbFromLinear(kBackground));
   fn.ClearColor(background, background, background, 1);
   fn.Clear(GL_COLOR_BUFFER_BIT);
-  if (!renderer().hardware && !coarse_rehearsed_) coarse_rehearsed_ = scene_.rehearseCoarse();
   const auto copy_scene = [this](int columns) { scene_.copyTo(columns); };
   copy_scene(scene_width_);
   if (referencePicture())

@@ -70,7 +70,7 @@ class SceneArea {
   /// Copies the pictures to the lower left of the bound draw framebuffer, into `width` columns of pixels.
   void copyTo(int width) const;
   /// As SceneDisplay's, of the first.
-  bool rehearseCoarse() const { return first_.rehearseCoarse(); }
+  void rehearseCopies() const { first_.rehearseCopies(); }
 
   double exposure() const { return first_.exposure(); }
   bool gliding() const { return first_.gliding(); }

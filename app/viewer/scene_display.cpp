@@ -162,7 +162,7 @@ bool SceneDisplay::outdated(const Wanted& wanted) const {
 
 bool SceneDisplay::sampled(const Wanted& wanted) const { return sampled_ && serves(*sampled_, wanted); }
 
-void SceneDisplay::allocate(Picture& picture, const Wanted& wanted) {
+void SceneDisplay::allocate(Picture& picture, const Wanted& wanted) const {
   picture.place_width = wanted.width;
   picture.place_height = wanted.height;
   const int width = widthOf(wanted), height = heightOf(wanted);
@@ -441,15 +441,19 @@ void SceneDisplay::endFiner() {
 
 void SceneDisplay::copyTo(int x, int width) const { copyPicture(context_.functions(), shown_, x, width); }
 
-bool SceneDisplay::rehearseCoarse() const {
-  if (shown_.width == 0) return false;
+void SceneDisplay::rehearseCopies() const {
   const gl::Functions& fn = context_.functions();
-  GLint read = 0;
-  fn.GetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read);
-  fn.BindFramebuffer(GL_READ_FRAMEBUFFER, shown_.framebuffer.id());
-  fn.BlitFramebuffer(0, 0, 1, 1, 0, 0, 2, 2, GL_COLOR_BUFFER_BIT, GL_LINEAR);
-  fn.BindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read));
-  return true;
+  GLint target = 0;
+  fn.GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
+  Picture picture{gl::Texture(context_), gl::Framebuffer(context_)};
+  Wanted small;
+  small.width = small.height = 6;  // no power of two, for which the code would be another
+  for (const int divisor : {1, 2}) {
+    small.divisor = divisor;
+    allocate(picture, small);
+    fn.BindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(target));
+    copyPicture(fn, picture, 0, small.width);
+  }
 }
 
 void SceneDisplay::copyFinerTo(int x, int width) const {

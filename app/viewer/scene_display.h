@@ -117,10 +117,10 @@ class SceneDisplay {
   /// Copies the picture, or as much of it as fits into `width` columns, to the bottom of the bound draw
   /// framebuffer, from column `x` on [px].
   void copyTo(int x, int width) const;
-  /// Copies a pixel of the picture to the lower left, larger, as those of a coarse one are copied. With the
-  /// first such copy a software renderer makes the code for it, some 40 ms: not when the camera first moves.
-  /// Returns whether there is a picture.
-  bool rehearseCoarse() const;
+  /// Copies something of a few pixels to the lower left, as copyTo() copies fine and coarse pictures. With the
+  /// first copy of either kind a software renderer makes the code for it, some 40 ms: not with the first
+  /// picture, nor when the camera first moves.
+  void rehearseCopies() const;
 
   /// Factor from linear values to about 1 for white, before exposure_ev.
   double exposure() const { return exposure_; }
@@ -177,7 +177,7 @@ class SceneDisplay {
                   std::size_t& piece, Pace& pace, double deadline);
   bool drawBand(Bands& bands, const Wanted& finer, double exposure, const Picture& into, double deadline);
   static void copyPicture(const gl::Functions& fn, const Picture& picture, int x, int most);
-  void allocate(Picture& picture, const Wanted& wanted);
+  void allocate(Picture& picture, const Wanted& wanted) const;
   double nextExposure(double metered, double seconds);
 
   /// Marks of the mesh that are being found.

@@ -394,6 +394,7 @@ class Viewer {
     return !screenshots_.empty() || reference_load_.underWay() || picture_load_.underWay() || coming_picture_;
   }
   bool drawScene(double now, double deadline);
+  bool waitsForPicture(double now) const;
   void paint(GLuint framebuffer, int width, int height);
   void followScreenshots(double now);
   bool screenshotStands() const;
@@ -454,8 +455,10 @@ class Viewer {
   bool close_popups_ = false;                    // Esc closes the list that is open
   Camera seen_camera_;                           // that of the last frame
   std::optional<PaintedLook> painted_;
-  bool drew_scene_ = false;  // since the last frame
-  bool coarse_rehearsed_ = false;
+  Camera painted_camera_;                  // of the picture of the scene in it
+  std::optional<double> unpainted_since_;  // what has changed since then waits for the next picture
+  bool drew_scene_ = false;                // since the last frame
+  bool copies_rehearsed_ = false;
 
   Picking picking_;
   ValueProbe value_probe_;

@@ -77,6 +77,34 @@ TEST_F(ViewerFrames, AnswerWhileThePictureIsMade) {
   EXPECT_EQ(live_->shownCamera().eye, live_->camera().eye);
 }
 
+// What is painted of the window before a picture keeps the picture waiting.
+TEST_F(ViewerFrames, NothingElseIsPaintedBeforeThePictureThatTheMouseHasMoved) {
+  ImGuiIO& io = ImGui::GetIO();
+  const auto mouseAt = [&](float x) {
+    io.MousePos = {x, 100};
+    live_->notice("the mouse is at " + std::to_string(x));  // something else to be painted
+  };
+  mouseAt(100);
+  for (int frame = 0; frame < 3; ++frame) live_.draw();
+  io.MouseDown[0] = true;
+  for (int frame = 0; frame < 3; ++frame) live_.draw();
+  for (float x = 110; x < 150; x += 10) {
+    const glm::dvec3 before = live_->camera().eye;
+    ASSERT_EQ(live_->shownCamera().eye, before);
+    mouseAt(x);
+    const int painted = live_.painted();
+    const double since = wallSeconds();
+    while (live_.painted() == painted) live_.pump();
+    ASSERT_NE(live_->camera().eye, before) << "the mouse does not turn the view";
+    // A picture that takes very long is not waited for.
+    if (wallSeconds() < since + 0.05) {
+      EXPECT_EQ(live_->shownCamera().eye, live_->camera().eye);
+    }
+    ASSERT_TRUE(live_.until([this] { return live_->shownCamera().eye == live_->camera().eye; }));
+  }
+  io.MouseDown[0] = false;
+}
+
 TEST_F(ViewerFrames, AreCoarseWhileTheCameraMovesAndFineAtRestAndInFiles) {
   const testing_support::TempFolder folder;
   const std::string moving = folder / "moving.png", at_rest = folder / "at_rest.png";
