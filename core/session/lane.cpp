@@ -341,8 +341,7 @@ void Lane::refresh(bool resting, double interval) {
     pace_.made(began, wallSeconds());
   }
   refreshInsight(resting);
-  if (facts_->diagnostics.size() != solve_->diagnostics().size() ||
-      facts_->plan.size() != solve_->plan().size())
+  if (facts_->diagnostics.size() != solve_->diagnostics().size() || facts_->plan != solve_->plan())
     learnFacts(facts_->options, facts_->load_seconds);
   if (!history_ || history_->size() != solve_->history().size())
     history_ = std::make_shared<const std::vector<HistoryEntry>>(solve_->history());

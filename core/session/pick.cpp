@@ -154,6 +154,8 @@ std::vector<PickedDecision> decisionsFor(const Mesh& mesh, const Pick& pick,
     out.push_back({plan_keys::kFineness, "A coarse mesh of the whole scene was tried, and is good enough."});
   if (const PlanDecision* channels = decisionOf(plan, plan_keys::kChannels))
     out.push_back({plan_keys::kChannels, "Fewer channels are summed: " + channels->why + "."});
+  if (const PlanDecision* shots = decisionOf(plan, plan_keys::kShots))
+    out.push_back({plan_keys::kShots, "Its light goes with that of others: " + shots->why + "."});
   const PlanDecision* idle = decisionOf(plan, plan_keys::kShooters);
   if (idle && pick.patch != kNone &&
       std::binary_search(idle->patches.begin(), idle->patches.end(), pick.patch)) {

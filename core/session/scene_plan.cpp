@@ -46,6 +46,9 @@ constexpr PlanRow kRows[] = {
     {{plan_keys::kChannels, "Channels that are alike",
       "sums over patches and receivers for channels that are grey, in proportion to another, or dark"},
      "exact: the same sums to rounding, of grey light to the last bit"},
+    {{plan_keys::kShots, "Shots one after the other",
+      "shots along columns that are at hand: bounces among their patches are summed first, and sent once"},
+     "within the error asked for, by the solver's bound: the same light, summed in another order"},
     {{plan_keys::kShooters, "Patches that need not shoot",
       "form factors of patches that are black, or whose light does not matter to the error asked for"},
      "within the error asked for, by the solver's bound; black patches have nothing to send"}};
@@ -257,6 +260,23 @@ PlanDecision withoutEvenLight(const Mesh& mesh, double error) {
           std::to_string(mesh.base->element_count) + " even elements",
       std::to_string(mesh.element_count) + " elements instead of some " + figureText(mesh.lit_area / *fine),
       error);
+}
+
+PlanDecision withoutShots(std::size_t at_hand, std::size_t patches, double error) {
+  return decision(plan_keys::kShots, "shots one after the other along columns at hand",
+                  "the columns of " + std::to_string(at_hand) + " of " + std::to_string(patches) +
+                      " patches are kept, and among these a bounce is a small product",
+                  "of up to 24 bounces at a time, " + std::to_string(at_hand) + " shots each, all but one",
+                  error);
+}
+
+PlanDecision withoutAnyShots(std::size_t patches, double reflected, double error) {
+  return decision(plan_keys::kShots, "shots one after the other",
+                  "surfaces reflect " + figureText(100 * reflected) +
+                      " % of the light, which then takes many bounces, and the columns of " +
+                      countedText(patches, "patch", "patches") +
+                      " are soon there: gmres solves for all together",
+                  "a shot of each patch for each bounce", error);
 }
 
 PlanDecision withoutShooters(IdleShooters shooters, double error) {

@@ -35,6 +35,7 @@ inline constexpr std::string_view kHemicubes = "hemicubes";
 inline constexpr std::string_view kEvenLight = "even-light";
 inline constexpr std::string_view kFineness = "fineness";
 inline constexpr std::string_view kChannels = "channels";
+inline constexpr std::string_view kShots = "shots";
 inline constexpr std::string_view kShooters = "shooters";
 }  // namespace plan_keys
 
@@ -61,6 +62,7 @@ struct PlanDecision {
   std::vector<std::uint32_t> patches = {};
 
   std::string_view sure() const;  ///< of its row
+  bool operator==(const PlanDecision&) const = default;
 };
 
 /// What is known when all but the first shot is done.
@@ -82,6 +84,11 @@ PlanDecision withoutHemicubes(const Mesh& mesh, double error);
 PlanDecision withoutFineness(const Mesh& mesh, double error, const ErrorEstimate& found, double usual);
 /// That the mesh follows the light.
 PlanDecision withoutEvenLight(const Mesh& mesh, double error);
+/// That bounces among patches whose columns are at hand, so many of `patches`, are summed before they are
+/// sent.
+PlanDecision withoutShots(std::size_t at_hand, std::size_t patches, double error);
+/// That all bounces are solved for together, as this share of the light that meets a surface is reflected.
+PlanDecision withoutAnyShots(std::size_t patches, double reflected, double error);
 /// Of a solve that has converged: of so many patches these had to send nothing, of which so many are black,
 /// and what was left unshot is this share of what was emitted.
 struct IdleShooters {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/clock.h"
+#include "formfactor/closure.h"
 #include "formfactor/methods.h"
 #include "formfactor/sky.h"
 #include "gl/context.h"
@@ -177,8 +178,9 @@ void Solve::Impl::makeTransport(const std::function<gl::Context&()>& gl, const C
 
 void Solve::Impl::chooseMode(const std::string& key) {
   // Where much is reflected, shot after shot takes as many bounces as light does. It needs all columns first.
-  const bool few = mesh->patch_count <= kMostForGmres;
-  const std::string soonest = options.soonest && high_gain && few ? "gmres" : "southwell";
+  const bool together = options.soonest && high_gain && mesh->patch_count <= kMostForGmres &&
+                        leavesOut(options.do_anyway, plan_keys::kShots);
+  const std::string soonest = together ? "gmres" : "southwell";
   const std::string chosen = key != "auto" ? key : options.bounces ? "jacobi" : soonest;
   if (options.bounces && chosen != "jacobi") {
     throw Error(ErrorKind::kUsage,
@@ -195,6 +197,15 @@ void Solve::Impl::chooseMode(const std::string& key) {
   mode.reset();
   mode_key = chosen;
   options.mode = key;
+  if (key != "auto" || chosen != "gmres") return;
+  const double gain = reflectionGain(*mesh);
+  decide(withoutAnyShots(mesh->patch_count, std::isfinite(gain) ? gain / (1 + gain) : 1, options.error));
+}
+
+// In the place of what was said of the same before.
+void Solve::Impl::decide(PlanDecision decision) {
+  std::erase_if(plan, [&](const PlanDecision& d) { return d.key == decision.key; });
+  plan.push_back(std::move(decision));
 }
 
 void Solve::Impl::wakeClocks() {
@@ -377,6 +388,7 @@ void Solve::again() {
 
 void Solve::setMode(const std::string& key) {
   Impl& s = *impl_;
+  std::erase_if(s.plan, [](const PlanDecision& d) { return d.key == plan_keys::kShots; });
   s.chooseMode(key);
   if (s.mode_failed && s.progress_state == SolveState::kFailed) {
     s.failure.reset();

@@ -144,6 +144,7 @@ struct Solve::Impl {
   void record();
   void refine();
   bool endsNearTheTruth() const;
+  void decide(PlanDecision decision);
   bool leapIsDue() const;
   bool takeLeap();
   bool sweeps() const { return leap.running() || last_sweeps.running(); }  // at the end

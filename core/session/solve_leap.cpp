@@ -1,4 +1,6 @@
 // When a solve leaps (leap.h) instead of shooting.
+#include <algorithm>
+
 #include "session/solve_impl.h"
 
 namespace unshot {
@@ -18,7 +20,8 @@ bool Solve::Impl::endsNearTheTruth() const {
 bool Solve::Impl::leapIsDue() const {
   if (leap.running()) return true;
   const PatchMatrix& matrix = budget->matrix();
-  return options.mode == "auto" && mode_key == "southwell" && endsNearTheTruth() && measures.drafts == 0 &&
+  return options.mode == "auto" && leavesOut(options.do_anyway, plan_keys::kShots) &&
+         mode_key == "southwell" && endsNearTheTruth() && measures.drafts == 0 &&
          static_cast<double>(shots_at_hand) > kShotsOfLeap * static_cast<double>(matrix.knownCount()) &&
          canLeapBy(matrix);
 }
@@ -29,6 +32,10 @@ bool Solve::Impl::takeLeap() {
   shots_at_hand = 0;
   if (!leap.running()) return false;
   measures.shots += leap.advance(*state, *transport);
+  if (!leap.running()) {
+    const std::size_t known = std::min<std::size_t>(budget->matrix().knownCount(), mesh->patch_count);
+    decide(withoutShots(known, mesh->patch_count, options.error));
+  }
   return true;
 }
 

@@ -203,6 +203,39 @@ TEST(Plan, SavesFormFactorsOfPatchesThatNeedNotShoot) {
   EXPECT_LT(apart, pair.with->measures().solverBound() + pair.without->measures().solverBound());
 }
 
+// Both on one mesh: what is apart is no more than what both leave of the solver's error.
+TEST(Plan, SumsBouncesInsteadOfShots) {
+  const Pair pair = solvedBothWays(publishedCornellBox, soonest(0.02), plan_keys::kShots);
+  EXPECT_EQ(pair.without->modeKey(), "southwell");
+  measured("shots", static_cast<double>(pair.without->measures().shots));
+  measured("shots otherwise", static_cast<double>(pair.with->measures().shots));
+  EXPECT_LT(pair.without->measures().shots, pair.with->measures().shots);
+  const double apart = difference(*pair.with, *pair.without);
+  measured("apart", apart);
+  EXPECT_LT(apart, pair.with->measures().solverBound() + pair.without->measures().solverBound());
+  // A mode that is asked for does what it does.
+  SolveOptions options = soonest(0.02);
+  options.mode = "southwell";
+  EXPECT_EQ(keysOf(*solved(publishedCornellBox(), options)).count(std::string(plan_keys::kShots)), 0u);
+}
+
+TEST(Plan, SolvesForAllBouncesTogetherWhereMuchIsReflected) {
+  const auto white = [] {
+    Scene scene = publishedCornellBox();
+    for (Material& material : scene.materials) material.reflectance = glm::dvec3(0.97);
+    return scene;
+  };
+  const Pair pair = solvedBothWays(white, soonest(0.05), plan_keys::kShots);
+  EXPECT_EQ(pair.without->modeKey(), "gmres");
+  EXPECT_EQ(pair.with->modeKey(), "southwell");
+  const double apart = difference(*pair.with, *pair.without);
+  measured("apart", apart);
+  EXPECT_LT(apart, pair.with->measures().solverBound() + pair.without->measures().solverBound());
+  Solve& solve = *pair.without;
+  solve.setMode("jacobi");
+  EXPECT_EQ(keysOf(solve).count(std::string(plan_keys::kShots)), 0u);
+}
+
 // A grey room with a block in it, but for a trace of red in the block.
 Scene greyRoom(double red) {
   SceneBuilder b;

@@ -50,6 +50,11 @@ inline void expectWithinTheErrorOfBoth(const ProofScene& scene) {
   options.emit_front_only = true;
   auto lean = estimated(scene, options);
   if (cpuOf(*lean) < kShort) lean = estimated(scene, options);
+  measured("plan over the solve", lean->seconds().plan / cpuOf(*lean));
+  // Others that run beside it make it longer.
+  if (cpuOf(*lean) > kShort) {
+    EXPECT_LT(lean->seconds().plan, 0.05 * cpuOf(*lean));
+  }
   for (const PlanDecision& decision : lean->plan()) {
     options.do_anyway = {decision.key};
     const auto with = estimated(scene, options);
