@@ -24,6 +24,8 @@ namespace unshot {
 namespace {
 
 constexpr double kRateWindow = 1;
+// Of the area, which no sky lights, where a room is closed: its inside is half of it or more.
+constexpr double kDark = 0.4;
 // A solve that took no longer may be begun anew by a step [s].
 constexpr double kSoonAgain = 10;
 
@@ -134,6 +136,7 @@ void Viewer::takeState(double now) {
       followFrame(*before);
     }
   }
+  if ((news || another) && state_->phase == SessionPhase::kConverged) noteDarkness();
   takeMaterials();
   picking_.follow(*state_);
   noteRates(now);
@@ -163,6 +166,26 @@ void Viewer::noteSky() {
   } else {
     notice("No light of its own: " + windowWords(sky->message + ". To change it: " + sky->advice));
   }
+}
+
+/// Of a closed room that no lamp lights: the sky shines on its outside.
+void Viewer::noteDarkness() {
+  const Diagnostics& notes = state_->facts->diagnostics;
+  const bool sky =
+      std::any_of(notes.begin(), notes.end(), [](const Diagnostic& d) { return d.code == "sky"; });
+  if (!sky || !state_->snapshot) return;
+  const Mesh& mesh = *state_->snapshot->mesh;
+  const std::vector<glm::vec3>& light = state_->snapshot->element_irradiance;
+  double dark = 0, all = 0;
+  for (std::uint32_t e = 0; e < mesh.element_count; ++e) {
+    all += mesh.element_area[e];
+    if (light[e] == glm::vec3(0.0f)) dark += mesh.element_area[e];
+  }
+  if (dark < kDark * all) return;
+  notice(
+      "It is dark inside: no face emits light, and the sky shines on the outside alone. Click a surface, "
+      "then Make "
+      "it a light, or give a material a Ke above 0 in the MTL file");
 }
 
 void Viewer::takeMaterials() {

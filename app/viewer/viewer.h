@@ -334,6 +334,7 @@ class Viewer {
   void takeMaterials();
   void keepEdits();
   void noteSky();
+  void noteDarkness();
   void resumeSaved(const std::filesystem::path& file);
   void noteResumed();
   void runScript(double now);

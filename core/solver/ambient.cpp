@@ -38,9 +38,10 @@ std::vector<glm::dvec3> AmbientTerm::values(const RadiosityState& state) const {
     reflected[g] += state.area()[q] * state.reflectance()[q];
     area[g] += state.area()[q];
   }
-  std::vector<glm::dvec3> out(n);
+  std::vector<glm::dvec3> out(n, glm::dvec3(0.0));
   for (std::uint32_t q = 0; q < n; ++q) {
     const std::uint32_t g = find(q);
+    if (power[g].x < 0 || power[g].y < 0 || power[g].z < 0) continue;
     for (int c = 0; c < 3; ++c) {
       // Where everything reflects all light the series has no sum; a thousand bounces are as many as are
       // shown.

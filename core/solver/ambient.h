@@ -3,7 +3,8 @@
 //
 // Per channel and per group of patches known to see each other, sum A U / sum A / (1 - mean rho), means
 // weighted by area. Groups begin as the mesh shows who faces the same air, and are joined as columns show who
-// sees whom, so a room that no light has reached gets nothing.
+// sees whom, so a room that no light has reached gets nothing. Nor does one in which light is taken back, as
+// after an edit: that is to go where the light went, and not from all places alike.
 #pragma once
 
 #include <span>

@@ -58,6 +58,16 @@ TEST_F(FirstUse, AnEmptySceneSaysSoAndWhatToDo) {
   }
 }
 
+// No face emits, and none sees the sky that is there instead.
+TEST_F(FirstUse, ADarkRoomSaysWhatToDo) {
+  LiveViewer& live = open(
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+      "f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 2 6 7 3\nf 1 4 8 5\nf 4 3 7 8\n");
+  ASSERT_TRUE(live.untilPhase(SessionPhase::kConverged));
+  ASSERT_TRUE(live.until([&] { return !live->messages().lines().empty(); }));
+  EXPECT_THAT(live->messages().lines().back(), HasSubstr("Make it a light"));
+}
+
 TEST_F(FirstUse, ABrokenSceneSaysWhere) {
   LiveViewer& live = open("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
   ASSERT_TRUE(live.until([&] { return live->error().has_value(); }));

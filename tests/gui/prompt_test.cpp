@@ -62,6 +62,16 @@ TEST(ActionSearch, FindsChoicesByNameAndTitle) {
   EXPECT_THAT(textsOf(matchingActions("fov 30")), ElementsAre("fov 30"));
 }
 
+TEST(ActionSearch, FindsWhatOthersCallOtherwise) {
+  const auto first = [](const char* text) { return textsOf(matchingActions(text)).at(0); };
+  EXPECT_EQ(first("mesh"), "display mesh");
+  EXPECT_EQ(first("wireframe"), "display mesh");
+  EXPECT_EQ(first("wirefra"), "display mesh");
+  EXPECT_EQ(first("reset view"), "frame ");
+  EXPECT_EQ(first("field of view"), "fov ");
+  EXPECT_THAT(textsOf(matchingActions("make it a light")), testing::Contains("light "));
+}
+
 TEST(ActionSearch, ReadsAnArgumentBehindTheName) {
   EXPECT_EQ(typedAction("fov").action, nullptr);
   EXPECT_EQ(typedAction("fo 30").action, nullptr);

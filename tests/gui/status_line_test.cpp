@@ -105,11 +105,11 @@ TEST(ErrorInFront, IsNeverZeroWhereNoiseHidesIt) {
   state.measures.unshot_fraction = 0.25;
   EXPECT_EQ(errorInFront(state), "25 % unshot");
   state.measures.bounds.upper = 0.02;
-  EXPECT_EQ(errorInFront(state), "error below 2 %");
+  EXPECT_EQ(errorInFront(state), "solver below 2 %");
   state.estimates.both = {0, 0, 0.1, 100};
   EXPECT_EQ(errorInFront(state), "error up to 12 %");
   state.measures.bounds.upper = 0.5;  // how bad it may be says nothing of how it is
-  EXPECT_EQ(errorInFront(state), "error below 60 %");
+  EXPECT_EQ(errorInFront(state), "error up to 60 %");
   state.measures.bounds.upper = 0.02;
   state.estimates.both.value = 0.05;
   EXPECT_EQ(errorInFront(state), "error about 7 %");

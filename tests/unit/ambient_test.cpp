@@ -26,6 +26,17 @@ TEST(AmbientTerm, IsExactAtTheStartOfAFurnace) {
   }
 }
 
+// As after an edit: what is taken back goes where it went, and leaves no shade of another colour elsewhere.
+TEST(AmbientTerm, IsNoneWhereLightIsTakenBack) {
+  TableSystem system = randomSystem(1, 16, 2, false, 1);
+  std::fill(system.emission.begin(), system.emission.end(), glm::dvec3(1, 0, 3));
+  system.emission[5] = {1, -0.1, 3};
+  Transport transport = system.transport();
+  const RadiosityState state(transport, system.emission, system.reflectance);
+  for (const glm::dvec3& ambient : AmbientTerm(16, std::vector<std::uint32_t>(16, 0)).values(state))
+    EXPECT_EQ(ambient, glm::dvec3(0.0));
+}
+
 // Two rooms of 8 patches; only the first has light.
 void feed(AmbientTerm& ambient, Transport& transport) {
   transport.watchColumns(

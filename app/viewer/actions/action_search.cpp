@@ -16,12 +16,15 @@ bool hasAllWords(const std::string& where, const std::string& text) {
   return true;
 }
 
-/// The choices whose key or title has all words of the text.
-void addChoices(const Action& action, const std::string& text, std::vector<FoundAction>& rows) {
+/// The choices whose key or title has all words of the text, and those of which it is one of both.
+void addChoices(const Action& action, const std::string& text, std::vector<FoundAction>& rows,
+                std::vector<FoundAction>& same) {
   if (!action.rows) return;
   for (const ChoiceInfo& choice : action.rows()) {
-    if (hasAllWords(std::string(choice.key) + " " + lowered(choice.title), text))
-      rows.push_back({&action, std::string(choice.key), std::string(choice.title)});
+    const std::string title = lowered(choice.title);
+    if (hasAllWords(std::string(choice.key) + " " + title, text))
+      (choice.key == text || title == text ? same : rows)
+          .push_back({&action, std::string(choice.key), std::string(choice.title)});
   }
 }
 
@@ -42,7 +45,14 @@ namespace {
 struct OtherWord {
   std::string_view word, here;
 };
-constexpr std::array<OtherWord, 18> kOtherWords = {{{"wireframe", "mesh"},
+constexpr std::array<OtherWord, 25> kOtherWords = {{{"wireframe", "mesh"},
+                                                    {"field", "angle"},
+                                                    {"reset", "back"},
+                                                    {"view", "camera"},
+                                                    {"make", "light"},
+                                                    {"it", ""},
+                                                    {"a", ""},
+                                                    {"this", ""},
                                                     {"grid", "mesh"},
                                                     {"color", "colour"},
                                                     {"colors", "colour"},
@@ -61,18 +71,23 @@ constexpr std::array<OtherWord, 18> kOtherWords = {{{"wireframe", "mesh"},
                                                     {"exit", "quit"},
                                                     {"close", "quit"}}};
 
+constexpr std::size_t kTypedLetters = 4;
+
 std::string inWordsOfHere(const std::string& text) {
   std::string out;
   for (const std::string_view word : splitParts(text, ' ')) {
-    const auto other = std::find_if(kOtherWords.begin(), kOtherWords.end(),
-                                    [&](const OtherWord& o) { return o.word == word; });
-    out += (out.empty() ? "" : " ") + std::string(other == kOtherWords.end() ? word : other->here);
+    // Also before its last letters are typed.
+    const auto other = std::find_if(kOtherWords.begin(), kOtherWords.end(), [&](const OtherWord& o) {
+      return o.word == word || (word.size() >= kTypedLetters && o.word.starts_with(word));
+    });
+    const std::string_view here = other == kOtherWords.end() ? word : other->here;
+    out += (out.empty() || here.empty() ? "" : " ") + std::string(here);
   }
   return out;
 }
 
 std::vector<FoundAction> actionsWith(const std::string& wanted) {
-  enum Rank { kSame, kBegins, kHas, kChoice, kSays, kRanks };
+  enum Rank { kSame, kBegins, kHas, kSameChoice, kChoice, kSays, kRanks };
   std::array<std::vector<FoundAction>, kRanks> found;
   for (const ActionGroup& group : actionGroups()) {
     for (const Action& row : group.actions) {
@@ -91,7 +106,7 @@ std::vector<FoundAction> actionsWith(const std::string& wanted) {
       } else if (hasAllWords(all, wanted)) {
         found[kSays].push_back({&action, {}, {}});
       }
-      if (!wanted.empty()) addChoices(action, wanted, found[kChoice]);
+      if (!wanted.empty()) addChoices(action, wanted, found[kChoice], found[kSameChoice]);
     }
   }
   std::vector<FoundAction> rows;
@@ -105,7 +120,7 @@ std::vector<FoundAction> matchingActions(std::string_view text) {
   const TypedAction typed = typedAction(text);
   if (typed.action) {
     std::vector<FoundAction> rows;
-    addChoices(*typed.action, lowered(typed.argument), rows);
+    addChoices(*typed.action, lowered(typed.argument), rows, rows);
     const bool whole = std::any_of(rows.begin(), rows.end(),
                                    [&](const FoundAction& row) { return row.argument == typed.argument; });
     if (whole || rows.empty()) return {{typed.action, typed.argument, {}}};

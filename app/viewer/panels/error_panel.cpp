@@ -72,10 +72,10 @@ std::string knownError(const LaneState& state) {
   const double bound = state.measures.solverBound();
   if (bound >= kMostShown) return {};
   const ErrorEstimate& other = state.estimates.both;
-  if (other.places == 0) return "error below " + percentText(bound);
+  if (other.places == 0) return "solver below " + percentText(bound);
   // A bound that is most of it says how bad it may be, not how it is.
   return "error " +
-         (bound > other.high ? "below " + percentText(bound + other.high) : aboutText(other, bound));
+         (bound > other.high ? "up to " + percentText(bound + other.high) : aboutText(other, bound));
 }
 
 std::string errorInFront(const LaneState& state) {

@@ -259,12 +259,16 @@ void terms(Viewer& viewer) {
   }
   list.AddRectFilled({at.x, at.y + height}, {at.x + width, at.y + height + 1},
                      ImGui::GetColorU32(ImGuiCol_Text, 0.35f));
-  // The upper lines, a tenth apart, with what they stand for.
-  for (double decade = std::floor(top); decade > std::floor(top) - 2; --decade) {
+  // Two of the upper lines, as near to each other as there is room, with what they stand for.
+  const double apart = std::max(1.0, std::ceil(1.2 * static_cast<double>(em / height) * decades));
+  for (double decade = std::floor(top); decade > std::floor(top) - 2 * apart; decade -= apart) {
     const std::string text = channelText(std::pow(10.0, decade));
-    const float y = at.y + height * static_cast<float>((top - decade) / decades);
-    list.AddText({at.x + width - ImGui::CalcTextSize(text.c_str()).x - 2, y},
-                 ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    const ImVec2 corner{at.x + width - size.x - 2,
+                        at.y + height * static_cast<float>((top - decade) / decades)};
+    list.AddRectFilled({corner.x - 3, corner.y}, {corner.x + size.x + 2, corner.y + size.y},
+                       ImGui::GetColorU32(ImGuiCol_WindowBg, 0.8f));
+    list.AddText(corner, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
   }
   if (!ImGui::IsItemHovered()) return;
   const float place = (ImGui::GetMousePos().x - at.x) / slot;

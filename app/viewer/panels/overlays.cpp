@@ -176,9 +176,8 @@ void buildOverlays(Viewer& viewer, const LowerEdge& edge, bool covered, bool not
     lineOverScene("empty", "Drop an OBJ scene here, or Ctrl+O", {middle, height / 2}, {0.5f, 0.5f});
   } else if (state.stopped_by == "no light") {
     const char* dark =
-        "No light: no face of this scene emits any (Ke above 0), nor does a sky. The chooser Sky in the "
-        "section "
-        "Scene, or the action sky r,g,b, lights it";
+        "No light: nothing in this scene emits any (Ke above 0), nor does a sky. Click a surface, then Make "
+        "it a light; take the last change back (Ctrl+Z); or choose a sky in the section Scene";
     lineOverScene("dark", brokenText(dark, std::min(2 * middle - 3 * size, 30 * size)), {middle, height / 2},
                   {0.5f, 0.5f});
   }
