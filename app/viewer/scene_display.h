@@ -117,8 +117,8 @@ class SceneDisplay {
   /// Copies the picture, or as much of it as fits into `width` columns, to the bottom of the bound draw
   /// framebuffer, from column `x` on [px].
   void copyTo(int x, int width) const;
-  /// Copies something of a few pixels to the lower left, as copyTo() copies fine and coarse pictures. With the
-  /// first copy of either kind a software renderer makes the code for it, some 40 ms: not with the first
+  /// Copies something of a few pixels to the lower left, as copyTo() copies fine and coarse pictures. With
+  /// the first copy of either kind a software renderer makes the code for it, some 40 ms: not with the first
   /// picture, nor when the camera first moves.
   void rehearseCopies() const;
 
