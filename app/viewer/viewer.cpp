@@ -184,8 +184,7 @@ void Viewer::noteDarkness() {
   if (dark < kDark * all) return;
   notice(
       "It is dark inside: no face emits light, and the sky shines on the outside alone. Click a surface, "
-      "then Make "
-      "it a light, or give a material a Ke above 0 in the MTL file");
+      "then Make it a light, or give a material a Ke above 0 in the MTL file");
 }
 
 void Viewer::takeMaterials() {

@@ -220,6 +220,10 @@ TEST(StatusLine, SaysWhereThePanelHasNoRoom) {
     EXPECT_NE(narrow.find("Tab:thepanel"), std::string::npos) << narrow;
     EXPECT_NE(narrow.find("unshot"), std::string::npos) << "figures beside it: " << narrow;
   }
+  viewer->perform("panel", "");  // over the scene, and lifted again
+  viewer->perform("panel", "");
+  viewer.draw();
+  EXPECT_TRUE(status()) << "as before";
   viewer->perform("panel", "off");
   viewer.draw();
   EXPECT_FALSE(status()) << "the line goes with the panel, which is not wanted then";

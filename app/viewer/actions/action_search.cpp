@@ -71,6 +71,7 @@ constexpr std::array<OtherWord, 25> kOtherWords = {{{"wireframe", "mesh"},
                                                     {"exit", "quit"},
                                                     {"close", "quit"}}};
 
+// Of such a word, at least, before it is taken for one.
 constexpr std::size_t kTypedLetters = 4;
 
 std::string inWordsOfHere(const std::string& text) {

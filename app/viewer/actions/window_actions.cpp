@@ -26,8 +26,9 @@ void runPanel(Viewer& viewer, const std::string& text) {
   const bool room = panelHasRoom(viewer);
   bool shown = ui.panel && (room || ui.panel_over);
   setSwitch(shown, text);
-  ui.panel = shown;
   ui.panel_over = shown && !room;
+  // Lifted off the scene again it only has no room: the line below stays.
+  ui.panel = shown || (!room && text.empty());
 }
 
 void runSection(Viewer& viewer, const std::string& text) {

@@ -66,11 +66,10 @@ std::array<Part, 6> partsOf(const Viewer& viewer) {
        "Light that is emitted or reflected but not yet shot: \u2211 A |U| / \u2211 A E over patches and "
        "channels [%]"},
       {solving ? knownError(state) : nothing, "error about 0.0012 %",
-       "How wrong the reflected light still is, RMS of B \u2212 B* over RMS of B* \u2212 E [%]; \"solver "
-       "below\": a "
-       "proven bound of what the solver has left, before form factors and mesh are estimated; \"about\": an "
-       "estimate "
-       "of all of it, \"up to\" the upper end of one that noise hides, or that is mostly that bound"},
+       "How wrong the reflected light still is, RMS of B \u2212 B* over RMS of B* \u2212 E [%]; "
+       "\"solver below\": a proven bound of what the solver has left, before form factors and mesh are "
+       "estimated; \"about\": an estimate of all of it, \"up to\" the upper end of one that noise hides, or "
+       "that is mostly that bound"},
       {running ? countText(rows) + " rows/s" : nothing, "00,000 rows/s",
        "Columns and rows of the form factors K computed a second, those kept from before not counted [1/s]"},
       {frameText(viewer.frameMilliseconds()), "frame 000 ms",
