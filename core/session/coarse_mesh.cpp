@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
+#include <utility>
 
 #include "formfactor/direct_light.h"
 #include "formfactor/methods.h"
@@ -18,7 +19,7 @@ namespace {
 
 // The first trial has this share of the usual elements, or that where light straight from emitters is even,
 // the last at most that. Of rooms lit by a wall the first is mostly the last.
-constexpr double kFirst = 1.0 / 9, kFirstOfEven = 1.0 / 64, kLast = 1.0 / 4;
+constexpr double kFirst = 1.0 / 9, kFirstOfEven = 1.0 / 64, kLast = 1.0 / 2;
 // Of a surface's width: so far off its borders it is looked at, and in the middle.
 constexpr double kOffBorders = 0.05;
 // From one trial to the next, times as many at least and at most.
@@ -65,12 +66,9 @@ bool isLitEvenly(const Mesh& coarsest, double share, std::uint64_t seed) {
   return count == 0 || widest <= share * sum / count;
 }
 
-}  // namespace
-
-bool mayBeCoarse(const Mesh& coarsest, double usual) {
-  if (coarsest.element_count > kFirstOfEven * usual + 2 * static_cast<double>(coarsest.sides.size()))
-    return false;
-  const double size = std::sqrt(coarsest.lit_area / (kFirstOfEven * usual));
+// Beside elements of a mesh of so many.
+bool emittersAreWide(const Mesh& coarsest, double elements) {
+  const double size = std::sqrt(coarsest.lit_area / elements);
   return std::all_of(coarsest.sides.begin(), coarsest.sides.end(), [&](const Side& side) {
     const Surface& surface = coarsest.surfaces[side.surface];
     return side.emission == glm::dvec3(0.0) ||
@@ -78,11 +76,25 @@ bool mayBeCoarse(const Mesh& coarsest, double usual) {
   });
 }
 
+}  // namespace
+
+bool mayBeCoarse(const Mesh& coarsest, double usual) {
+  return coarsest.element_count <= kFirstOfEven * usual + 2 * static_cast<double>(coarsest.sides.size()) &&
+         emittersAreWide(coarsest, kFirst * usual);
+}
+
 CoarseMesh findCoarseMesh(const Mesh& coarsest, const CoarseTrial& trial, const CancelToken& cancel) {
   const double last = kLast * trial.usual, enough = kTrusted * trial.error;
-  const double first = isLitEvenly(coarsest, trial.error, trial.seed) ? kFirstOfEven : kFirst;
+  const bool even =
+      emittersAreWide(coarsest, kFirstOfEven * trial.usual) && isLitEvenly(coarsest, trial.error, trial.seed);
+  const double first = even ? kFirstOfEven : kFirst;
+  std::uint32_t tried = 0;  // elements
   for (double elements = first * trial.usual; elements <= last;) {
     std::shared_ptr<const Mesh> mesh = trial.make(elements);
+    if (std::exchange(tried, mesh->element_count) == mesh->element_count) {
+      elements *= kLeastStep;
+      continue;
+    }
     SolvedAtOnce solved = solveAtOnce(*mesh, enough, trial.seed, trial.fewer_channels, cancel);
     const ErrorEstimate found = solved.error;
     if (found.places == 0) break;

@@ -222,6 +222,34 @@ TEST(SmallScene, IsEstimatedAtThePlacesOfItsTrial) {
   }
 }
 
+// A lamp of a twelfth of the ceiling: the mesh must be fine around it, and is coarse elsewhere.
+TEST(SmallScene, TakesACoarseMeshUnderASmallLampToo) {
+  const auto room = [] {
+    SceneBuilder b;
+    const auto grey = b.material("grey", glm::dvec3(0.5)),
+               lamp = b.material("lamp", glm::dvec3(0.0), glm::dvec3(10));
+    BoxMaterials walls = allOf(grey);
+    walls[3] = kNone;
+    addBox(b, walls, {0, 0, 0}, {4, 2.5, 3}, true);
+    b.quad(grey, {0, 2.5, 0}, {4, 0, 0}, {0, 0, 1});
+    b.quad(grey, {0, 2.5, 2}, {4, 0, 0}, {0, 0, 1});
+    b.quad(grey, {0, 2.5, 1}, {1.5, 0, 0}, {0, 0, 1});
+    b.quad(grey, {2.5, 2.5, 1}, {1.5, 0, 0}, {0, 0, 1});
+    b.quad(lamp, {1.5, 2.5, 1}, {1, 0, 0}, {0, 0, 1});
+    return b.finish();
+  };
+  SolveOptions options = soonest(0.05);
+  options.emit_front_only = true;
+  const Pair pair = solvedBothWays(room, options, plan_keys::kFineness);
+  EXPECT_LT(pair.without->mesh().element_count, pair.with->mesh().element_count);
+  SolveOptions finer = options;  // near to the truth
+  finer.error = options.error / 4;
+  finer.do_anyway = {std::string(plan_keys::kFineness)};
+  const double apart = difference(*solved(room(), finer), *pair.without);
+  measured("apart over the error asked for", apart / options.error);
+  EXPECT_LT(apart, options.error + finer.error);
+}
+
 // What is left out of a small scene whose light is even or smooth. Twenty times is asked for; both runs are
 // in one process and on one clock of CPU, and the furnace takes a thousandth here, the others a hundredth.
 // Counted, they are no more factors between patches and vertices than this.
