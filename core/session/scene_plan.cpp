@@ -266,8 +266,7 @@ PlanDecision withoutShots(std::size_t at_hand, std::size_t patches, double error
   return decision(plan_keys::kShots, "shots one after the other along columns at hand",
                   "the columns of " + std::to_string(at_hand) + " of " + std::to_string(patches) +
                       " patches are kept, and among these a bounce is a small product",
-                  "of up to 24 bounces at a time, " + std::to_string(at_hand) + " shots each, all but one",
-                  error);
+                  "all but one of up to 24 bounces of " + std::to_string(at_hand) + " shots", error);
 }
 
 PlanDecision withoutAnyShots(std::size_t patches, double reflected, double error) {
