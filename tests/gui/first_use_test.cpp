@@ -58,7 +58,7 @@ TEST_F(FirstUse, AnEmptySceneSaysSoAndWhatToDo) {
   }
 }
 
-// No face emits, and none sees the sky that is there instead.
+// No face emits, and the sky that is there instead shines on the outside alone.
 TEST_F(FirstUse, ADarkRoomSaysWhatToDo) {
   LiveViewer& live = open(
       "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
